@@ -112,7 +112,8 @@ photons = 10
 }
 
 TEST_CASE(
-    "a file of definitions alone serves goniometer and table stack, and a table is measured by its name") {
+    "a file of definitions alone serves goniometer and table stack, and a table or a map is measured by its "
+    "name") {
   const auto folder = scratch_folder("goniometer_definitions");
   std::ofstream(folder / "mine.toml") << R"(
 [media.thick]
@@ -140,6 +141,19 @@ specular_share = 0
   check_contains(done({"goniometer", "stack.h5", "--scene", "mine.toml", "--inside", "thick", "--angle",
                        "10 deg", "--rays", "2000"}),
                  {"surface", "stack.h5"});
+  const std::string map = source_file("tests/reference/microsurface/gaussian_rough.gsf").string();
+  const std::string measured = done({"goniometer", map, "--scene", "mine.toml", "--inside", "thick",
+                                     "--angle", "30 deg", "--rays", "2000", "--on-the-spot"});
+  check_contains(measured, {"surface", "gaussian_rough.gsf"});
+  check_contains(measured, "n 2.0000");
+  // Rough: the light that is reflected is spread, where a smooth face sends it all one way.
+  const std::size_t at = measured.find("\n  reflected ");
+  REQUIRE(at != std::string::npos);
+  std::istringstream words(measured.substr(at));
+  std::string word, plus_minus;
+  double mean = 0.0, error = 0.0, across = 0.0, across_error = 0.0, rms_deg = 0.0;
+  words >> word >> mean >> plus_minus >> error >> across >> plus_minus >> across_error >> rms_deg;
+  CHECK(rms_deg > 5.0);
 }
 
 TEST_CASE("goniometer explains what it cannot do") {

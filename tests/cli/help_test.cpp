@@ -205,6 +205,18 @@ TEST_CASE("codes of errors are unique, explained, and behind the messages") {
                  "[unknown-key]\n"));
 }
 
+TEST_CASE("an error of a damaged file has the code of one, whatever else its message has") {
+  const auto folder = scratch_folder("damaged_code");
+  std::ofstream(folder / "mesh.off") << "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n";
+  const Ended ended = run_program({"repair", "mesh.off", "--unit", "mm", "-o", "out.ply"}, folder);
+  CHECK(contains(ended.output, "does not exist"));
+  CHECK(contains(ended.output, "[file-damaged]"));
+  CHECK(cli::input_error_code("no vertex", "the file is cut short or damaged; export it again") ==
+        std::string("file-damaged"));
+  CHECK(cli::input_error_code("there is no part \"a\"", "the parts are \"damaged\"") ==
+        std::string("unknown-name"));
+}
+
 TEST_CASE("every fragment by which a kind of error is known stands in the sources") {
   std::string sources;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(source_file("src/scintray"))) {

@@ -174,7 +174,9 @@ TEST_CASE("import explains options that do not fit") {
   write(folder / "Materials.db", "[Elements]\n");
   check_contains(run_program({"import", "Materials.db", "-o", "x"}, folder), 1,
                  {"Materials.db", "densities and compositions"});
-  check_contains(run_program({"import", "gone.gdml", "-o", "x"}, folder), 1, "mesh file not found");
+  check_contains(run_program({"import", "gone.gdml", "-o", "x"}, folder), 1,
+                 {"gone.gdml", "there is no such file"});
+  check_contains(run_program({"import", "gone.gdml", "-o", "x"}, folder), 1, "[file-missing]");
   CHECK_FALSE(std::filesystem::exists(folder / "x"));
 }
 

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <string>
@@ -60,6 +61,8 @@ TEST_CASE("a command or option with a slip names the one that is meant") {
   test::check_contains(refusal("map descibe a.gsf"), {"did you mean describe?"});
   test::check_contains(refusal("run scene.toml --photns 5"), {"did you mean --photons?"});
   test::check_contains(refusal("frobnicate"), {"scintray --help"});
+  test::check_contains(refusal("table build map.gsf --rayz 5"), {"scintray table build has no option"});
+  test::check_contains(refusal("table build map.gsf --rayz 5"), {"scintray table build --help"});
 }
 
 TEST_CASE("a count of zero is refused in words") {
@@ -67,4 +70,25 @@ TEST_CASE("a count of zero is refused in words") {
   CHECK(answer.exit_code == cli::kBadUsage);
   test::check_contains(answer.output, {"--threads", "\"0\" is not a number above 0"});
   CHECK(answer.output.find("00000000") == std::string::npos);
+}
+
+TEST_CASE(
+    "a wrong command line gets two lines, what is wrong and where its use is shown, without words of a "
+    "parser") {
+  for (const char* arguments :
+       {"run", "run scene.toml --photons", "run scene.toml --photons abc", "report a.h5 --json --text",
+        "goniometer polished --angle \"45 deg\" --side above", "map describe",
+        "table build map.gsf --rays"}) {
+    const Answer answer = run_program(arguments);
+    CAPTURE(answer.output);
+    CHECK(answer.exit_code == cli::kBadUsage);
+    CHECK(answer.output.rfind("error: ", 0) == 0);
+    CHECK(std::count(answer.output.begin(), answer.output.end(), '\n') == 2);
+    test::check_contains(answer.output, "[usage]\n");
+    test::check_contains(answer.output, {"  hint: scintray ", "--help"});
+    for (const char* jargon : {"Error:", "Mismatch", "UINT", "TEXT"})
+      CHECK(answer.output.find(jargon) == std::string::npos);
+  }
+  test::check_contains(run_program("run scene.toml --photons").output,
+                       {"--photons is not followed by a value"});
 }

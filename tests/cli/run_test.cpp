@@ -1,7 +1,11 @@
+#include <utility>
+
+#include "cli/dark_crystal.hpp"
 #include "cli/program.hpp"
 #include "scintray/cli/exit_codes.hpp"
 #include "scintray/results/results.hpp"
 #include "support/shared.hpp"
+#include "support/small_crystal.hpp"
 #include "support/words.hpp"
 
 using namespace scintray;
@@ -167,6 +171,9 @@ TEST_CASE("reweight prints light under other optics and writes a table, and refu
       "reflectance of white 0.95: detected");
   did({"--absorption-length", "glass=100,200 mm,none", "--reflectance", "white=x0.9"}, cli::kSuccess,
       "absorption length of glass none, reflectance of white x 0.9: detected");
+  // What the fractions leave out stands beside them.
+  did({"--reflectance", "white=0.8"}, cli::kSuccess, "The detected fraction ");
+  did({"--reflectance", "white=0.8", "--json"}, cli::kSuccess, "\"not_included\": [");
   did({"--reflectance", "whit=0.8"}, cli::kBadInput, "did you mean \"white\"");
   did({"--reflectance", "white"}, cli::kBadUsage, "no name before");
   did({"--reflectance", "white=x0.9,0.8"}, cli::kBadUsage, "mixed");
@@ -199,6 +206,52 @@ TEST_CASE("replay prints the start of a photon, and takes the results file of a 
   check_contains(from_result, {"detected by"});
   CHECK(from_result == replay({"replay", "scene.toml", "--seed", "5"}));
   CHECK(from_result != replay({"replay", "scene.toml"}));
+}
+
+TEST_CASE("A signal ends a command that still builds its scene, with 130 and no file") {
+  // Two balls of half a million triangles, of which one is cut from the other.
+  std::string balls;
+  for (const char* more : {"translate = [\"50 mm\", \"0 mm\", \"0 mm\"]\n",
+                           "translate = [\"53 mm\", \"0.1 mm\", \"0.2 mm\"]\npriority = 1\n"})
+    balls += "[[part]]\nname = \"ball" + std::to_string(balls.size()) +
+             "\"\nsphere = { radius = \"5 mm\", subdivisions = 150 }\nmedium = \"glass\"\nsurface = "
+             "\"polished\"\n" +
+             more;
+  const DarkCrystal crystal("run_stopped_early");
+  crystal.write(balls + kDarkFit, kRows);
+  std::ofstream(crystal.folder / "events.toml") << kSmallCrystal << balls;
+  const std::pair<int, std::vector<std::string>> commands[] = {
+      {SIGTERM, {"check", "scene.toml"}},
+      {SIGINT, {"run", "scene.toml"}},
+      {SIGHUP, {"response", "build", "events.toml", "-o", "map.h5"}},
+      {SIGTERM, {"fit", "scene.toml"}}};
+  for (const auto& command : commands) {
+    CAPTURE(command.second.front());
+    const Program program(command.second, crystal.folder);
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    program.signal(command.first);
+    const Ended ended = program.wait();
+    CAPTURE(ended.output);
+    CHECK(ended.exit_code == cli::kInterrupted);
+    check_contains(ended.output, "stopped");
+    for (const auto& entry : std::filesystem::directory_iterator(crystal.folder)) {
+      const std::string name = entry.path().filename().string();
+      CAPTURE(name);
+      CHECK_FALSE(name.ends_with(".h5"));  // an empty .NAME.h5.lock stays
+    }
+  }
+}
+
+TEST_CASE("A pipe that nobody reads costs nothing of a run: results and page are written") {
+  const auto folder = folder_with("closed_pipe", scene_text(1'000, false));
+  Program({"run", "scene.toml"}, folder, 0,
+          {"/bin/sh", "-c", "{ sleep 1; \"$0\" \"$@\"; echo $? > code.txt; } | true"})
+      .wait();
+  int code = -1;
+  std::ifstream(folder / "code.txt") >> code;
+  CHECK(code == cli::kSuccess);
+  CHECK(read_results(folder / "scene.h5").complete());
+  CHECK(std::filesystem::exists(folder / "scene.html"));
 }
 
 TEST_CASE("results are not written under the name of another format") {

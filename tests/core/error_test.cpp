@@ -56,6 +56,10 @@ TEST_CASE("Case and separators do not make a word another one, and a replaced wo
   CHECK(nearest_word("LYS0", {"LSO", "LYSO"}) == "LYSO");
   CHECK(nearest_word("S13360-6050", {"S13360_6050VE", "R6231"}) == "S13360_6050VE");
   CHECK(nearest_word("Optical Grease", {"optical_grease", "optical_gel"}) == "optical_grease");
+  // What stands behind a colon is a dopant, or the face of a part.
+  CHECK(nearest_word("LYSO:Ce", {"LSO", "LYSO", "LYSO_Ca"}) == "LYSO");
+  CHECK(nearest_word("LaBr3:Ce", {"CeBr3", "LaBr3"}) == "LaBr3");
+  CHECK(nearest_word("NaI:Tl", {"NaI", "NaI_Tl"}) == "NaI_Tl");
   CHECK(nearest_word("kg", {"mm", "m"}).empty());
   CHECK(nearest_word("q", {"x", "y"}).empty());
 }

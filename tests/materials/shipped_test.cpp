@@ -133,10 +133,14 @@ TEST_CASE("the paper's crystal is the paper's") {
   CHECK(lso.yield_per_keV * 511.0 == doctest::Approx(12775.0));  // photons per event in the paper
   REQUIRE(lso.decay.size() == 1);
   CHECK(lso.decay[0].decay_ns == doctest::Approx(40.0));
-  double peak_nm = 0.0;
-  for (std::size_t i = 0; i < lso.emission.x().size(); ++i)
-    if (lso.emission.y()[i] == lso.emission.max_y()) peak_nm = lso.emission.x()[i];
-  CHECK(std::abs(peak_nm - 420.0) < 10.0);
+  // LYSO: the data sheet of Luxium states 420 nm; a digitised figure of it peaks at 441 to 445 nm.
+  for (const Medium& medium : {lso, shipped_database().medium("LYSO")}) {
+    CAPTURE(medium.name);
+    double peak_nm = 0.0;
+    for (std::size_t i = 0; i < medium.emission.x().size(); ++i)
+      if (medium.emission.y()[i] == medium.emission.max_y()) peak_nm = medium.emission.x()[i];
+    CHECK(std::abs(peak_nm - 420.0) < 10.0);
+  }
 }
 
 TEST_CASE("tabulated dispersion formulae stay within 1e-5 of the formula") {

@@ -33,7 +33,7 @@ std::string in_mm(const std::filesystem::path& path, double mm_per_unit = 1.0) {
 }  // namespace
 
 TEST_CASE("Messages about mesh files name the file, the fault and the remedy") {
-  check_contains(in_mm("/nowhere/crystal.stl"), "mesh file not found");
+  check_contains(in_mm("/nowhere/crystal.stl"), "there is no such file");
   check_contains(in_mm("/nowhere/crystal.stl"), "/nowhere/crystal.stl");
   check_contains(in_mm("crystal.iges"), ".stl, .obj, .ply, .off, .3mf, .dae, .gltf, .glb, .step, .stp");
   check_contains(in_mm(write("empty.obj", "")), {"mesh file", "empty"});

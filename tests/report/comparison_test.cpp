@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "analysis/made_up_events.hpp"
 #include "support/made_up_result.hpp"
 #include "support/page_scripts.hpp"
 #include "support/words.hpp"
@@ -76,4 +77,38 @@ TEST_CASE("Results of one point each are compared whatever was swept") {
   b.run.points.resize(1);
   b.run.points[0].parameters = {"ground", "9 mm"};
   CHECK(detected(compare_results({a, b}), "polished, 2 mm").sigmas[1]);
+}
+
+TEST_CASE("What detected fractions, resolutions and CTRs do not include stands beside a comparison of them") {
+  const MadeUpDetector detector;
+  const auto with_events = [&](const std::string& name, std::uint64_t seed) {
+    NamedResult result = named(name, seed, 0.45);
+    result.run.points.resize(1);
+    result.run.points[0].omitted =
+        std::vector<OmittedEffect>{{"non-proportionality", "LSO", "", true, false, false},
+                                   {"electronic noise", "", "[readout] noise", true, true, false},
+                                   {"reflection behind the window", "pmt", "", false, false, true}};
+    result.analyses.points = {analysis::analyze_events(detector.events(3000, true), detector.setup())};
+    return result;
+  };
+  std::vector<NamedResult> results{with_events("a", 1), with_events("b", 2)};
+  const std::vector<std::string> sentences{
+      "The detected fraction does not include: reflection behind the window (pmt).",
+      "The energy resolution does not include: non-proportionality (LSO); electronic noise.",
+      "The CTR does not include: electronic noise."};
+  for (const std::string& text : {comparison_text(results), comparison_page(results)}) {
+    for (const std::string& sentence : sentences) check_contains(text, sentence);
+    CHECK_FALSE(contains(text, "a, b: The"));
+  }
+  // Results that leave out something else are named; of a result without a figure nothing is stated.
+  results[1].run.points[0].omitted->pop_back();
+  results.push_back(named("photons", 3, 0.45));
+  results[2].run.points.resize(1);
+  for (const std::string& text : {comparison_text(results), comparison_page(results)}) {
+    check_contains(text, "a: " + sentences[0]);
+    check_contains(text, "b: The detected fraction includes every effect that is modelled.");
+    check_contains(text, "photons: What the detected fraction does not include is not recorded");
+    CHECK_FALSE(contains(text, "a, b: The"));
+    CHECK_FALSE(contains(text, "What the CTR does not include"));
+  }
 }

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -318,6 +320,81 @@ TEST_CASE("A page has its landmarks and a list of contents, and the keyboard rea
   CHECK_FALSE(contains(page, "<div class=\"scroll\">"));
   CHECK_FALSE(contains(page, "<pre>"));
   CHECK_FALSE(contains(page, "minmax(24rem"));  // wider than a phone
+}
+
+namespace {
+
+/// Relative luminance of "#rgb" or "#rrggbb" (WCAG 2.2, "relative luminance").
+double luminance(const std::string& colour) {
+  const std::size_t digits = colour.size() == 4 ? 1 : 2;
+  const double weights[] = {0.2126, 0.7152, 0.0722};
+  double sum = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    std::string hex = colour.substr(1 + digits * i, digits);
+    if (digits == 1) hex += hex;
+    const double share = std::stoi(hex, nullptr, 16) / 255.0;
+    sum += weights[i] * (share <= 0.04045 ? share / 12.92 : std::pow((share + 0.055) / 1.055, 2.4));
+  }
+  return sum;
+}
+
+/// Contrast of two colours (WCAG 2.2, "contrast ratio"), 1 to 21.
+double contrast(const std::string& a, const std::string& b) {
+  const double one = luminance(a), other = luminance(b);
+  return (std::max(one, other) + 0.05) / (std::min(one, other) + 0.05);
+}
+
+/// Colours of a page's style by the names of their variables, without those of the dark scheme or with them.
+std::map<std::string, std::string> colours_of(const std::string& style, bool dark) {
+  std::map<std::string, std::string> colours;
+  const std::regex variable("--([a-z0-9-]+):(#[0-9a-f]+)"),
+      scheme(R"(@media \(prefers-color-scheme: dark\) \{\s*:root \{[^}]*\})");
+  const auto read = [&](const std::string& text) {
+    for (auto at = std::sregex_iterator(text.begin(), text.end(), variable); at != std::sregex_iterator();
+         ++at)
+      colours[(*at)[1]] = (*at)[2];
+  };
+  read(std::regex_replace(style, scheme, ""));
+  if (dark)
+    for (auto at = std::sregex_iterator(style.begin(), style.end(), scheme); at != std::sregex_iterator();
+         ++at)
+      read(at->str());
+  return colours;
+}
+
+}  // namespace
+
+TEST_CASE("Text of a page has a contrast of 4.5 to 1: labels of bars, names of curves, columns, banners") {
+  const std::string page = html_report(test::made_up_run());
+  const std::size_t begin = page.find("<style>");
+  const std::string style = page.substr(begin, page.find("</style>") - begin);
+  CHECK(contrast("#fff", "#000000") == doctest::Approx(21.0));
+  for (const bool dark : {false, true}) {
+    CAPTURE(dark);
+    const auto colours = colours_of(style, dark);
+    const auto check = [&](const std::string& ink, const std::string& paper) {
+      CAPTURE(ink);
+      CAPTURE(paper);
+      CHECK(contrast(ink, paper) >= 4.5);
+    };
+    // Labels of bars are white but where the style states another ink.
+    std::map<std::string, std::string> inks;
+    for (int i = 0; i < 6; ++i) inks["f" + std::to_string(i)] = "#fff";
+    const std::regex rule(R"(((?:\.bar \.f[0-9](?:, )?)+) \{ color: (#[0-9a-f]+); \})"), one("f[0-9]");
+    for (auto at = std::sregex_iterator(style.begin(), style.end(), rule); at != std::sregex_iterator();
+         ++at) {
+      const bool of_dark = style.substr(0, static_cast<std::size_t>(at->position())).ends_with("dark) { ");
+      if (of_dark && !dark) continue;
+      const std::string names = (*at)[1];
+      for (auto name = std::sregex_iterator(names.begin(), names.end(), one); name != std::sregex_iterator();
+           ++name)
+        inks[name->str()] = (*at)[2];
+    }
+    for (const auto& [name, ink] : inks) check(ink, colours.at(name));
+    for (int i = 0; i < 7; ++i) check(colours.at("t" + std::to_string(i)), colours.at("paper"));
+    for (const char* text : {"ink", "soft"}) check(colours.at(text), colours.at("paper"));
+    check(colours.at("alarm"), colours.at("alarm-paper"));
+  }
 }
 
 TEST_CASE("A long table is folded") {

@@ -71,6 +71,26 @@ TEST_CASE("a bare number is refused in every dimension that has a unit") {
   }
 }
 
+TEST_CASE("a bare number gets the units that its size allows") {
+  const auto hint = [](const std::string& number, Dimension dimension) {
+    Reading reading("x = " + number);
+    reading.table.quantity("x", dimension);
+    REQUIRE(reading.problems.list().size() == 1);
+    return reading.problems.list().front().hint;
+  };
+  const std::string nm = hint("1_050", Dimension::wavelength), eV = hint("2.95", Dimension::wavelength),
+                    um = hint("0.42", Dimension::wavelength), any = hint("50", Dimension::wavelength);
+  check_contains(nm, "nm\"");
+  CHECK_FALSE(contains(nm, "eV"));
+  check_contains(eV, {"\"2.95 eV\"", "photon energy"});
+  CHECK_FALSE(contains(eV, "nm\""));
+  check_contains(um, {"\"0.42 um\"", "\"0.42 eV\""});
+  check_contains(any, {"\"50 nm\"", "\"50 eV\""});
+  check_contains(hint("0.17", Dimension::angle), {"\"0.17 deg\"", "\"0.17 rad\""});
+  check_contains(hint("-90", Dimension::angle), "\"-90 deg\"");
+  CHECK_FALSE(contains(hint("-90", Dimension::angle), "rad"));
+}
+
 TEST_CASE("a table that is missing is reported once, not once for each key in it") {
   check_reading(
       "@@x = 1",

@@ -65,18 +65,37 @@ SCINTRAY_CACHE_COMMANDS(SCINTRAY_DECLARE)
 
 namespace {
 
-/// Exit code for a command line that was not run, after its message: 0 for --help and --version,
-/// the code a command set with CLI::RuntimeError, else bad usage.
-int explain(const CLI::App& app, const CLI::ParseError& error, std::ostream& out, std::ostream& err) {
-  const int code = app.exit(error, out, err);
-  const bool asked_for = code == 0 || error.get_name() == "RuntimeError";
-  return asked_for ? code : static_cast<int>(kBadUsage);
-}
-
 /// The innermost command of a command line that was parsed as far as it went.
 const CLI::App& innermost(const CLI::App& app) {
   const std::vector<CLI::App*> parsed = app.get_subcommands();
   return parsed.empty() ? app : innermost(*parsed.back());
+}
+
+/// "scintray table build".
+std::string full_name(const CLI::App& command) {
+  return (command.get_parent() ? full_name(*command.get_parent()) + " " : "") + command.get_name();
+}
+
+/// What is wrong with a command line, in words of its writer.
+std::string usage_text(const CLI::ParseError& error) {
+  const std::string text = error.what();
+  const std::size_t of = text.find(": "), missing = text.rfind(" missing");
+  const bool no_value = dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr &&
+                        of != std::string::npos && missing != std::string::npos;
+  return no_value ? text.substr(0, of) + " is not followed by a value" : text;
+}
+
+/// Exit code for a command line that was not run, after its message: 0 for --help and --version,
+/// the code a command set with CLI::RuntimeError, else bad usage.
+int explain(const CLI::App& app, const CLI::ParseError& error, std::ostream& out, std::ostream& err) {
+  if (error.get_exit_code() == 0 || error.get_name() == "RuntimeError") return app.exit(error, out, err);
+  const CLI::App& command = innermost(app);
+  err << "error: " << usage_text(error) << " [" << kUsageError << "]\n";
+  if (&command == &app)
+    err << app.help();
+  else
+    err << "  hint: " << full_name(command) << " --help shows how it is used, with examples\n";
+  return kBadUsage;
 }
 
 /// The first word that is no command or option of a command line, and what may be meant; empty where every
@@ -96,11 +115,11 @@ std::string unknown_word(const CLI::App& app) {
     for (const CLI::Option* one : command.get_options())
       for (const std::string& name : one->get_lnames()) known.push_back("--" + name);
   }
-  const std::string of = "scintray" + (command.get_parent() ? " " + command.get_name() : "");
+  const std::string of = full_name(command);
   const std::string near = core::nearest_word(word, known);
-  return "error: " + of + " has no " + (option ? "option" : "command") + " " + core::in_quotes(word) +
-         "\n  hint: " + (near.empty() ? "" : "did you mean " + near + "? ") + of + " --help lists the " +
-         (option ? "options" : "commands") + "\n";
+  return "error: " + of + " has no " + (option ? "option" : "command") + " " + core::in_quotes(word) + " [" +
+         kUsageError + "]\n  hint: " + (near.empty() ? "" : "did you mean " + near + "? ") + of +
+         " --help lists the " + (option ? "options" : "commands") + "\n";
 }
 
 /// Throws CLI::ValidationError for a command that mpirun has started several times, but for those that
@@ -159,7 +178,6 @@ int run_program(std::span<const AddCommand> available, int argc, const char* con
       "defect,\n"
       "130 interrupted.");
   for (const AddCommand add : available) add(app);
-  app.failure_message(CLI::FailureMessage::help);
   app.parse_complete_callback([&app] { require_one_process(app); });
   try {
     return run_guarded([&] { app.parse(argc, argv); }, err);

@@ -12,6 +12,15 @@ namespace {
 
 const std::vector<ErrorKind>& kinds() {
   static const std::vector<ErrorKind> list{
+      // Whatever else the message has: a face of a damaged mesh may have a vertex that "does not exist".
+      {kDamagedFile,
+       "a file is damaged",
+       "The file is cut short, has flipped bits, or contradicts itself. Of a mesh or a height map the place "
+       "is "
+       "the line where that was found.",
+       "Fetch or export it again. A result is made again by `scintray run`, from its checkpoints with "
+       "--resume.",
+       {"is damaged", "or damaged", "damaged surface table", "damaged or truncated"}},
       // The text of a scene.
       {"toml-syntax",
        "the file is not TOML",
@@ -206,10 +215,14 @@ const std::vector<ErrorKind>& kinds() {
 
 std::span<const ErrorKind> error_kinds() { return kinds(); }
 
-const char* input_error_code(std::string_view what) {
+const char* input_error_code(std::string_view what, std::string_view hint) {
+  const auto holds = [](std::string_view text, std::string_view fragment) {
+    return text.find(fragment) != std::string_view::npos;
+  };
   for (const ErrorKind& kind : kinds())
     for (const std::string_view fragment : kind.fragments)
-      if (what.find(fragment) != std::string_view::npos) return kind.code;
+      if (holds(what, fragment) || (kind.code == std::string_view(kDamagedFile) && holds(hint, fragment)))
+        return kind.code;
   return kInputError;
 }
 

@@ -15,7 +15,7 @@ struct ErrorKind {
   const char* why;     ///< when it occurs, and what its place is
   const char* remedy;  ///< what to write
   /// Fragments of messages: a message that holds one of them is of this kind. Empty: by the type of the
-  /// exception.
+  /// exception. Those of kDamagedFile are sought in hints too.
   std::vector<std::string_view> fragments;
 };
 
@@ -23,8 +23,9 @@ struct ErrorKind {
 std::span<const ErrorKind> error_kinds();
 
 /// The code of a message about the input: that of the first kind with a fragment of it, else kInputError.
-const char* input_error_code(std::string_view what);
+const char* input_error_code(std::string_view what, std::string_view hint = "");
 
+inline constexpr const char* kDamagedFile = "file-damaged";
 inline constexpr const char* kInputError = "input";
 inline constexpr const char* kUsageError = "usage";
 inline constexpr const char* kSystemError = "system";

@@ -49,7 +49,7 @@ std::string other_places(const Kind& kind) {
 
 /// The message of a problem, with the code of its kind behind what was found.
 std::string message(core::Problem problem) {
-  problem.what += std::string(" [") + input_error_code(problem.what) + "]";
+  problem.what += std::string(" [") + input_error_code(problem.what, problem.hint) + "]";
   return problem.text();
 }
 

@@ -40,6 +40,7 @@ simulation::SceneFitOptions fit_options(const FitOptions& options, ProgressLine&
   result.model.stop = &InterruptGuard::requested();
   run.surface_hooks = watched_surfaces(line);
   result.model.progress = [&line](std::uint64_t done, std::uint64_t of) {
+    InterruptGuard::keeps_results(true);
     line.show("curve", static_cast<double>(done), static_cast<double>(of), "");
     if (done >= of) line.restart();
   };

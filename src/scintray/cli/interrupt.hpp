@@ -15,9 +15,9 @@ class InterruptGuard {
   InterruptGuard& operator=(const InterruptGuard&) = delete;
 
   static const std::atomic<bool>& requested();
-  /// States whether there is a result to keep (as from the beginning). Where there is none, as while a scene
-  /// is read, a signal ends the program with exit code kInterrupted after two seconds, if it has not ended by
-  /// then.
+  /// States whether there is a result to keep. Where there is none, as from the beginning, while a scene is
+  /// read and built, a signal ends the program with exit code kInterrupted after two seconds, if it has not
+  /// ended by then.
   static void keeps_results(bool keeps);
 };
 

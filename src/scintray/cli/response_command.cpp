@@ -131,6 +131,7 @@ void build(const BuildOptions& options) {
   map_options.simulation.surface_hooks = watched_surfaces(line);
   map_options.hooks.stop = &InterruptGuard::requested();
   map_options.hooks.progress = [&line](std::uint64_t done, std::uint64_t of) {
+    InterruptGuard::keeps_results(true);  // in the journal
     line.show("mapping", static_cast<double>(done), static_cast<double>(of), "cells");
   };
   const simulation::ResponseFile file = simulation::build_map(scene, map_options);
@@ -167,6 +168,7 @@ void run(const MappedRunOptions& options) {
   simulation::SimulationHooks hooks;
   hooks.stop = &InterruptGuard::requested();
   hooks.progress = [&line](const simulation::SimulationProgress& p) {
+    InterruptGuard::keeps_results(true);
     line.show("events", static_cast<double>(p.done), static_cast<double>(p.total), p.thing);
   };
   simulation::ResultsFile results(options.output);

@@ -14,6 +14,8 @@
 #include "scintray/core/units.hpp"
 #include "scintray/core/version.hpp"
 #include "scintray/report/text/format.hpp"
+#include "scintray/report/text/omissions.hpp"
+#include "scintray/report/text/result_json.hpp"
 #include "scintray/report/text/sweep_view.hpp"
 #include "scintray/results/results.hpp"
 #include "scintray/simulation/reweight.hpp"
@@ -138,6 +140,7 @@ void print(const tally::RunResult& run, const std::vector<simulation::PropertySc
                              100.0 * light.effective_share)
               << "; " << (light.valid ? "valid" : "NOT VALID: " + light.reason) << "\n";
   }
+  std::cout << report::omission_sentence(report::omitted_anywhere(run), report::Figure::fraction) << "\n";
 }
 
 Json json_of_points(const tally::RunResult& run, const std::vector<simulation::PropertyScan>& scans,
@@ -157,7 +160,8 @@ Json json_of_points(const tally::RunResult& run, const std::vector<simulation::P
                     {"per_event", point.per_event ? json_of(*point.per_event) : Json(nullptr)},
                     {"effective_photons", json_of(light.effective_photons)},
                     {"valid", light.valid},
-                    {"reason", light.reason}});
+                    {"reason", light.reason},
+                    {"not_included", Json::parse(report::omissions_json(run.points[point.point].omitted))}});
   }
   return {{"points", list}};
 }

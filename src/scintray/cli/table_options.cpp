@@ -110,6 +110,7 @@ std::shared_ptr<const optics::SurfaceTable> table_with_progress(
   const ActivityWatch watch(line);
   const auto traced = [&] {
     return build([&](double share) {
+      InterruptGuard::keeps_results(true);  // in the journal
       line.show("table", 100.0 * share, 100.0, "percent");
       return !InterruptGuard::requested();
     });

@@ -12,10 +12,10 @@ namespace scintray::core {
 namespace {
 
 /// How much a substitution of one character by another costs: letters that differ in case only, and the
-/// characters that separate words in names, are the same to a reader.
+/// characters that separate words in names, or a dopant from its host, are the same to a reader.
 std::size_t substitution_cost(std::string_view a, std::string_view b) {
   const auto folded = [](std::string_view c) {
-    if (c == " " || c == "-" || c == ".") return std::string("_");
+    if (c == " " || c == "-" || c == "." || c == ":") return std::string("_");
     return c.size() > 1 ? std::string(c)
                         : std::string(1, static_cast<char>(std::tolower(static_cast<unsigned char>(c[0]))));
   };
@@ -110,7 +110,13 @@ std::string nearest_word(const std::string& word, const std::vector<std::string>
     best_distance = distance;
     best = candidate;
   }
-  return best;
+  // Of LYSO:Ce the name is LYSO, unless the whole is a name, as NaI:Tl is.
+  const std::size_t colon = word.find(':');
+  if (colon == std::string::npos || best_distance == 0) return best;
+  const auto host = std::find_if(candidates.begin(), candidates.end(), [&](const std::string& candidate) {
+    return edit_distance(word.substr(0, colon), candidate) == 0;
+  });
+  return host == candidates.end() ? best : *host;
 }
 
 InputError unknown_name(const FileLocation& where, const std::string& kind, const std::string& wanted,

@@ -1,6 +1,8 @@
 #include "scintray/config/detail/toml_words.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 
 namespace scintray::config {
 
@@ -117,12 +119,27 @@ std::string expected_quantity(core::Dimension dimension) {
 
 std::string with_unit_hint(const std::string& number, core::Dimension dimension) {
   const auto with = [&](const std::string& unit) { return "\"" + number + " " + unit + "\""; };
-  std::string hint = "write it as a string with its unit, as " + with(usual_unit(dimension));
-  // Bare numbers come from programs that have a unit of their own.
-  if (dimension == core::Dimension::angle) hint += ", or as " + with("rad") + ": Geant4's are in radians";
-  if (dimension == core::Dimension::energy) hint += ", or as " + with("MeV") + ": Geant4's are in MeV";
-  if (dimension == core::Dimension::wavelength) hint += ", or as " + with("eV") + " for a photon energy";
-  return hint;
+  const std::string begin = "write it as a string with its unit, as ",
+                    usual = begin + with(usual_unit(dimension));
+  std::string digits = number;
+  std::erase(digits, '_');
+  const double size = std::abs(std::strtod(digits.c_str(), nullptr));
+  // Bare numbers come from programs that have a unit of their own; of light and angles the size shows which.
+  constexpr double kFullTurn_rad = 6.2831853072, kLeast_nm = 100.0, kMost_eV = 12.4, kMost_um = 1.2;
+  switch (dimension) {
+    case core::Dimension::angle:
+      if (size > kFullTurn_rad) return usual;
+      return usual + ", or as " + with("rad") + ": Geant4's are in radians";
+    case core::Dimension::energy:
+      return usual + ", or as " + with("MeV") + ": Geant4's are in MeV";
+    case core::Dimension::wavelength:
+      if (size >= kLeast_nm) return usual;
+      if (size > kMost_um && size <= kMost_eV) return begin + with("eV") + " for a photon energy";
+      if (size <= kMost_um) return begin + with("um") + ", or as " + with("eV") + " for a photon energy";
+      return usual + ", or as " + with("eV") + " for a photon energy";
+    default:
+      return usual;
+  }
 }
 
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& known) {

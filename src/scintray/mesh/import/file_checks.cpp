@@ -132,8 +132,8 @@ std::string lower_extension(const std::filesystem::path& path) {
 std::string read_mesh_file(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) {
-    reject_file(path, "mesh file not found",
-                "check the name; a relative path starts at the scene file's folder");
+    reject_file(path, "there is no such file",
+                "check the name and the folder; a path that a scene names counts from the scene's folder");
   }
   if (!std::filesystem::is_regular_file(path, error))
     reject_file(path, "this is a folder or device, not a mesh file");

@@ -9,9 +9,11 @@
 #include <utility>
 
 #include "scintray/analysis/timing/coincidence_timing.hpp"
+#include "scintray/core/text.hpp"
 #include "scintray/report/pages/detail/html_parts.hpp"
 #include "scintray/report/pages/page.hpp"
 #include "scintray/report/text/format.hpp"
+#include "scintray/report/text/omissions.hpp"
 #include "scintray/report/text/sweep_view.hpp"
 
 namespace scintray::report {
@@ -42,6 +44,7 @@ PointOfResult matching_point(const NamedResult& result, const std::string& label
 struct Quantity {
   std::string name;
   Value (*value)(const PointOfResult&);
+  std::optional<Figure> figure{};  ///< where effects that are not included change it
 };
 
 template <int kFate>
@@ -58,8 +61,10 @@ std::vector<Quantity> shares(std::index_sequence<kFates...>) {
 
 std::vector<Quantity> quantities() {
   std::vector<Quantity> all = shares(std::make_index_sequence<core::kFateCount>());
-  const auto add = [&](const char* name, Value (*value)(const PointOfResult&)) {
-    all.push_back({name, value});
+  all[core::fate_index(core::Fate::detected)].figure = Figure::fraction;
+  const auto add = [&](const char* name, Value (*value)(const PointOfResult&),
+                       std::optional<Figure> figure = {}) {
+    all.push_back({name, value, figure});
   };
   add("photons detected per event", [](const PointOfResult& at) -> Value {
     if (at.point->energy.detected.count == 0) return std::nullopt;
@@ -73,10 +78,11 @@ std::vector<Quantity> quantities() {
     if (!at.analysis || !at.analysis->peak.has_numbers()) return std::nullopt;
     return at.analysis->peak.fit.position;
   });
-  add("energy resolution (FWHM)", [](const PointOfResult& at) -> Value {
+  const auto resolution = [](const PointOfResult& at) -> Value {
     if (!at.analysis || !at.analysis->peak.has_numbers()) return std::nullopt;
     return at.analysis->peak.fit.relative_fwhm;
-  });
+  };
+  add("energy resolution (FWHM)", resolution, Figure::resolution);
   add("depth of interaction, FWHM (mm)", [](const PointOfResult& at) -> Value {
     if (!at.analysis || !at.analysis->doi) return std::nullopt;
     return at.analysis->doi->residual.quantile_fwhm;
@@ -85,10 +91,11 @@ std::vector<Quantity> quantities() {
     if (!at.analysis || !at.analysis->flood || at.analysis->flood->crystals.empty()) return std::nullopt;
     return at.analysis->flood->share_right;
   });
-  add("CTR, FWHM (ns)", [](const PointOfResult& at) -> Value {
+  const auto timing = [](const PointOfResult& at) -> Value {
     if (!at.analysis || !at.analysis->pair_difference_ns) return std::nullopt;
     return analysis::quoted_fwhm(*at.analysis->pair_difference_ns);
-  });
+  };
+  add("CTR, FWHM (ns)", timing, Figure::timing);
   return all;
 }
 
@@ -145,6 +152,31 @@ std::string verdict(const std::vector<NamedResult>& results, const std::vector<C
       count, results.front().name, std::sqrt(squares / static_cast<double>(count)), largest, where, chance);
 }
 
+/// What the figures in the table do not include: a sentence for each figure, or for each result where they
+/// differ.
+std::vector<std::string> omissions(const std::vector<NamedResult>& results,
+                                   const std::vector<ComparedNumber>& numbers) {
+  std::vector<std::string> found;
+  for (const Quantity& quantity : quantities()) {
+    if (!quantity.figure) continue;
+    std::vector<std::pair<std::string, std::vector<std::string>>> sentences;  // each with its results
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      if (std::none_of(numbers.begin(), numbers.end(), [&](const ComparedNumber& number) {
+            return number.quantity == quantity.name && number.values[i];
+          }))
+        continue;
+      const std::string sentence = omission_sentence(omitted_anywhere(results[i].run), *quantity.figure);
+      auto at = std::find_if(sentences.begin(), sentences.end(),
+                             [&](const auto& one) { return one.first == sentence; });
+      if (at == sentences.end()) at = sentences.insert(sentences.end(), {sentence, {}});
+      at->second.push_back(results[i].name);
+    }
+    for (const auto& [sentence, names] : sentences)
+      found.push_back(sentences.size() > 1 ? core::list_of(names) + ": " + sentence : sentence);
+  }
+  return found;
+}
+
 /// Warnings about what makes differences in sigma meaningless or unfair.
 std::vector<std::string> cautions(const std::vector<NamedResult>& results) {
   std::vector<std::string> found;
@@ -193,14 +225,16 @@ std::string comparison_text(const std::vector<NamedResult>& results) {
   const std::vector<ComparedNumber> numbers = compare_results(results);
   std::vector<std::vector<std::string>> table{head_of(results)};
   for (const ComparedNumber& number : numbers) table.push_back(row_of(number));
-  std::string text = aligned(table) + verdict(results, numbers) + "\n";
+  std::string text = aligned(table);
+  for (const std::string& sentence : omissions(results, numbers)) text += sentence + "\n";
+  text += verdict(results, numbers) + "\n";
   for (const std::string& caution : cautions(results)) text += "note: " + caution + "\n";
   return text;
 }
 
 std::string comparison_page(const std::vector<NamedResult>& results) {
   const std::vector<ComparedNumber> numbers = compare_results(results);
-  std::string about, rows, notes, names;
+  std::string about, rows, notes, names, left_out;
   for (const NamedResult& result : results) {
     names += (names.empty() ? "" : ", ") + result.name;
     about += "<tr>" + cell(result.name, "th") + cell(result.run.header.title) +
@@ -215,9 +249,11 @@ std::string comparison_page(const std::vector<NamedResult>& results) {
     rows += "</tr>\n";
   }
   for (const std::string& caution : cautions(results)) notes += "<li>" + escape_html(caution) + "</li>\n";
+  for (const std::string& sentence : omissions(results, numbers))
+    left_out += "<p>" + escape_html(sentence) + "</p>\n";
   std::string body = section("Differences", "<p>" + escape_html(verdict(results, numbers)) + "</p>\n" +
                                                 (notes.empty() ? "" : "<ul>\n" + notes + "</ul>\n") +
-                                                table(head_of(results), rows, 2));
+                                                table(head_of(results), rows, 2) + left_out);
   body += section("Results", table({"result", "title", "scene", "seed", "points"}, about, 3));
   return html_page("Comparison of results", names, "", body);
 }

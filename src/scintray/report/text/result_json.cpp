@@ -14,6 +14,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+std::string json_dump(const Json& json) { return json.dump(1, ' ', false, Json::error_handler_t::replace); }
+
 Json number_json(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json estimate_json(const core::Estimate& estimate) {
@@ -154,7 +156,11 @@ std::string result_json(const tally::RunResult& run, const RunAnalysis& analyses
     }
     json["points"].push_back(std::move(point));
   }
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_dump(json) + "\n";
+}
+
+std::string omissions_json(const std::optional<std::vector<tally::OmittedEffect>>& effects) {
+  return json_dump(omitted_json(effects));
 }
 
 }  // namespace scintray::report

@@ -1,7 +1,9 @@
 #pragma once
 /// A result as JSON.
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "scintray/report/run_analysis.hpp"
 #include "scintray/tally/result.hpp"
@@ -14,5 +16,9 @@ namespace scintray::report {
 /// what is not.
 /// @param analyses  of the events of the points, in their order; empty for a run of photons
 std::string result_json(const tally::RunResult& run, const RunAnalysis& analyses);
+
+/// Omitted effects as JSON: a list with effect, subject, the figures that it changes, and the remedy; null
+/// where they are not recorded.
+std::string omissions_json(const std::optional<std::vector<tally::OmittedEffect>>& effects);
 
 }  // namespace scintray::report

@@ -1,7 +1,10 @@
 #include "scintray/source/detail/origin.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "scintray/core/pattern.hpp"
@@ -26,11 +29,48 @@ core::Vec3 point_in(const Eigen::AlignedBox3d& box, core::Rng& rng) {
   return box.min() + box.sizes().cwiseProduct(core::Vec3(x, y, z));
 }
 
-core::InputError empty_region(const scene::Scene& scene, core::RegionId region) {
+core::InputError empty_region(const core::FileLocation& where, const scene::Scene& scene,
+                              core::RegionId region) {
   return core::InputError(
-      core::Problem{{},
-                    "no point of the source region lies inside \"" + scene.region_names[region] + "\"",
+      core::Problem{where, "no point of the source region lies inside \"" + scene.region_names[region] + "\"",
                     "check slab_z or box against the part's position (scintray check prints it)"});
+}
+
+/// The slab and the box of a region; infinite along axes that neither bounds.
+Eigen::AlignedBox3d bounds_of(const scene_file::RegionSpec& spec) {
+  const core::Vec3 far = core::Vec3::Constant(std::numeric_limits<double>::infinity());
+  core::Vec3 low = -far, high = far;
+  if (spec.slab_z_mm) {
+    low.z() = (*spec.slab_z_mm)[0];
+    high.z() = (*spec.slab_z_mm)[1];
+  }
+  if (spec.box) {
+    low = low.cwiseMax(spec.box->low);
+    high = high.cwiseMin(spec.box->high);
+  }
+  return {low, high};
+}
+
+std::string corner_text(const core::Vec3& corner) {
+  return fmt::format("[\"{:g} mm\", \"{:g} mm\", \"{:g} mm\"]", corner.x(), corner.y(), corner.z());
+}
+
+core::InputError region_outside(const scene_file::RegionSpec& spec, const scene::PartInfo& part) {
+  constexpr const char* kAxes[] = {"x", "y", "z"};
+  const Eigen::AlignedBox3d region = bounds_of(spec);
+  const core::Vec3 &low = part.bounds.min(), &high = part.bounds.max();
+  std::string misses;
+  for (Eigen::Index axis = 0; axis < 3; ++axis)
+    if (region.min()[axis] > high[axis] || region.max()[axis] < low[axis])
+      misses += fmt::format("{} along {} it goes from {:g} to {:g} mm, the part from {:g} to {:g} mm",
+                            misses.empty() ? ":" : ";", kAxes[axis], region.min()[axis], region.max()[axis],
+                            low[axis], high[axis]);
+  if (misses.empty()) misses = ": its slab_z and its box do not overlap";
+  return core::InputError(
+      {spec.where, "the source region lies outside part \"" + spec.part.name + "\"" + misses,
+       "give a region within the part, as " +
+           (spec.box ? "box = { low = " + corner_text(low) + ", high = " + corner_text(high) + " }"
+                     : fmt::format("slab_z = [\"{:g} mm\", \"{:g} mm\"]", low.z(), high.z()))});
 }
 
 /// A box and the triangles of a region's boundary, by number, that may reach into it.
@@ -86,6 +126,7 @@ Piece piece_of(core::RegionId region, const Eigen::AlignedBox3d& box,
 
 Origin::Origin(const std::variant<scene_file::RegionSpec, core::Vec3>& spec, const scene::Scene& scene) {
   if (const auto* region = std::get_if<scene_file::RegionSpec>(&spec)) {
+    where_ = region->where;
     add_parts(*region, scene);
   } else {
     const core::Vec3& point = std::get<core::Vec3>(spec);
@@ -158,7 +199,7 @@ void Origin::refine(const scene::Scene& scene) {
     }
     boxes_ = whole;
     for (const Piece& piece : open) boxes_.push_back({piece.region, piece.box, false, 1.0});
-    if (boxes_.empty()) throw empty_region(scene, boundaries.begin()->first);
+    if (boxes_.empty()) throw empty_region(where_, scene, boundaries.begin()->first);
     double volume = 0.0;
     for (Box& box : boxes_) box.most = volume += box.box.volume();
     for (Box& box : boxes_) box.most /= std::max(volume, 1e-300);
@@ -175,23 +216,13 @@ void Origin::add_parts(const scene_file::RegionSpec& spec, const scene::Scene& s
     add_box(spec, part);
   }
   if (!last) throw core::unknown_name(spec.part.where, "part", spec.part.name, names_of(scene.parts));
-  if (boxes_.empty())
-    throw core::InputError({spec.where, "the source region lies outside part \"" + spec.part.name + "\"",
-                            "\"" + last->name +
-                                "\" extends from z = " + std::to_string(last->bounds.min().z()) + " mm to " +
-                                std::to_string(last->bounds.max().z()) + " mm"});
+  if (boxes_.empty()) throw region_outside(spec, *last);
 }
 
 void Origin::add_box(const scene_file::RegionSpec& spec, const scene::PartInfo& part) {
-  core::Vec3 low = part.bounds.min(), high = part.bounds.max();
-  if (spec.slab_z_mm) {
-    low.z() = std::max(low.z(), (*spec.slab_z_mm)[0]);
-    high.z() = std::min(high.z(), (*spec.slab_z_mm)[1]);
-  }
-  if (spec.box) {
-    low = low.cwiseMax(spec.box->low);
-    high = high.cwiseMin(spec.box->high);
-  }
+  const Eigen::AlignedBox3d region = bounds_of(spec);
+  const core::Vec3 low = part.bounds.min().cwiseMax(region.min()),
+                   high = part.bounds.max().cwiseMin(region.max());
   if ((low.array() <= high.array()).all()) boxes_.push_back({part.region, Eigen::AlignedBox3d(low, high)});
 }
 
@@ -218,7 +249,7 @@ Place Origin::sample(const scene::Scene& scene, core::Rng& rng) const {
     const core::Vec3 position = point_in(box.box, rng);
     if (box.inside || scene.region_contains(box.region, position)) return {position, box.region};
   }
-  throw empty_region(scene, boxes_.front().region);
+  throw empty_region(where_, scene, boxes_.front().region);
 }
 
 core::Vec3 sample_direction(const scene_file::DirectionSpec& spec, core::Rng& rng) {

@@ -48,6 +48,7 @@ class Origin {
   /// out the pieces without any of it.
   void refine(const scene::Scene& scene);
 
+  core::FileLocation where_;  ///< of the region, for messages
   std::vector<Box> boxes_;
   bool point_ = false;
 };
