@@ -36,6 +36,9 @@ constexpr std::size_t kMostBytes = std::size_t{512} << 20;
 constexpr unsigned kLeastSeconds = 5;
 constexpr std::uint64_t kBytesPerSecond = 20'000'000;
 
+/// The end of what is found of a file that refers to others.
+constexpr std::string_view kNotFollowed = ", which is not followed";
+
 constexpr std::uint64_t kSlabBytes = std::uint64_t{4} << 20;
 constexpr std::size_t kDeepestGroup = 64;
 constexpr std::size_t kMostObjects = 1'000'000;
@@ -98,7 +101,7 @@ class Examination {
     if (H5Lget_info(parent, link.c_str(), &info, H5P_DEFAULT) < 0) unreadable(name);
     if (info.type == H5L_TYPE_SOFT) return;  // what it names in this file is reached by its own link
     if (info.type != H5L_TYPE_HARD)
-      throw Unsound(in_quotes(name) + " is a link to another file, which is not followed");
+      throw Unsound(in_quotes(name) + " is a link to another file" + std::string(kNotFollowed));
     const Handle object(H5Oopen(parent, link.c_str(), H5P_DEFAULT), H5Oclose);
     H5O_info_t about;
     if (!object.valid() || H5Oget_info2(object.id(), &about, H5O_INFO_BASIC) < 0) unreadable(name);
@@ -266,15 +269,23 @@ SoundFiles& sound_files() {
                     "copy it again from where it was made, or make it again"});
 }
 
+/// Throws InputError for what an examination found: damage, or references to other files.
+[[noreturn]] void refuse_unsound(const std::filesystem::path& path, const std::string& found) {
+  if (!found.ends_with(kNotFollowed)) refuse_damaged(path, found);
+  throw InputError({{path.string()},
+                    "this HDF5 file is not complete by itself: " + found,
+                    "copy what it refers to into one file"});
+}
+
 }  // namespace
 
 std::string foreign_storage(const Handle& dataset) {
   const Handle properties(H5Dget_create_plist(dataset.id()), H5Pclose);
   if (!properties.valid()) return "cannot be read: " + hdf5_reason();
   if (H5Pget_layout(properties.id()) == H5D_VIRTUAL)
-    return "is a virtual dataset, composed of other files, which are not read";
+    return "is a virtual dataset, composed of other files" + std::string(kNotFollowed);
   if (H5Pget_external_count(properties.id()) > 0)
-    return "keeps its numbers in another file, which is not read";
+    return "keeps its numbers in another file" + std::string(kNotFollowed);
   return {};
 }
 
@@ -322,7 +333,7 @@ void require_sound(const std::filesystem::path& path) {
       const ChildAnswer answer = run_in_child([&] { return examine(path); }, kMostBytes, seconds);
       if (!answer.trouble.empty())
         refuse_damaged(path, "HDF5 cannot read it to its end, in a process of its own " + answer.trouble);
-      if (answer.bytes != kSound) refuse_damaged(path, answer.bytes);
+      if (answer.bytes != kSound) refuse_unsound(path, answer.bytes);
     }
   }
   // A file just written could change again without changing its times, which have the grain of the system's
