@@ -40,6 +40,18 @@ class Program {
 
   void signal(int number) const { kill(child_, number); }
 
+  /// Waits until the program handles a signal itself, by the mask of proc(5); a minute at most.
+  void await_handler(int number) const {
+    for (int turn = 0; turn < 60'000; ++turn) {
+      std::ifstream status("/proc/" + std::to_string(child_) + "/status");
+      for (std::string word; status >> word;) {
+        if (word != "SigCgt:" || !(status >> word)) continue;
+        if (std::stoull(word, nullptr, 16) >> (number - 1) & 1U) return;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
+
   Ended wait() const {
     Ended ended;
     int status = 0;

@@ -229,6 +229,7 @@ TEST_CASE("A signal ends a command that still builds its scene, with 130 and no 
     CAPTURE(command.second.front());
     const Program program(command.second, crystal.folder);
     std::this_thread::sleep_for(std::chrono::seconds(1));
+    program.await_handler(command.first);
     program.signal(command.first);
     const Ended ended = program.wait();
     CAPTURE(ended.output);
