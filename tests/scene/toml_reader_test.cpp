@@ -71,6 +71,15 @@ TEST_CASE("a bare number is refused in every dimension that has a unit") {
   }
 }
 
+TEST_CASE("the quantity that is expected has a number that it may have") {
+  check_reading(
+      "x = @@5", [](const TomlTable& table) { table.quantity("x", Dimension::wavelength); },
+      "a wavelength with its unit, as \"420 nm\"", "unit");
+  check_reading(
+      "x = @@5", [](const TomlTable& table) { table.quantity("x", Dimension::angle); },
+      "an angle with its unit, as \"30 deg\"", "unit");
+}
+
 TEST_CASE("a bare number gets the units that its size allows") {
   const auto hint = [](const std::string& number, Dimension dimension) {
     Reading reading("x = " + number);

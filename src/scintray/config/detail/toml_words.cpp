@@ -111,10 +111,28 @@ std::string usual_unit(core::Dimension dimension) {
   throw core::InternalError("unknown dimension");
 }
 
+namespace {
+
+/// A number that a quantity of a dimension may well have in its usual unit.
+std::string example_number(core::Dimension dimension) {
+  switch (dimension) {
+    case core::Dimension::wavelength:
+      return "420";
+    case core::Dimension::angle:
+      return "30";
+    case core::Dimension::energy:
+      return "511";
+    default:
+      return "2";
+  }
+}
+
+}  // namespace
+
 std::string expected_quantity(core::Dimension dimension) {
   if (dimension == core::Dimension::dimensionless) return "a number, or a string as \"97 %\"";
-  return core::with_article(core::dimension_name(dimension)) + " with its unit, as \"2 " +
-         usual_unit(dimension) + "\"";
+  return core::with_article(core::dimension_name(dimension)) + " with its unit, as \"" +
+         example_number(dimension) + " " + usual_unit(dimension) + "\"";
 }
 
 std::string with_unit_hint(const std::string& number, core::Dimension dimension) {
