@@ -56,6 +56,35 @@ TEST_CASE("A fit prints its steps and what it found, and writes a file and a pag
       parameters.read<double>("value"));
 }
 
+TEST_CASE("What the curves of a fit do not include stands beside it, in its file, on its page and in JSON") {
+  const DarkCrystal crystal("fit_omissions");
+  const auto content = [&](const char* name) {
+    std::ostringstream text;
+    text << std::ifstream(crystal.folder / name).rdbuf();
+    return text.str();
+  };
+  for (const bool ideal : {true, false}) {
+    CAPTURE(ideal);
+    const std::string scene =
+        changed(kDarkCrystal, "\"ideal\"", ideal ? "\"ideal\"" : "\"R6231\"") + kDarkFit;
+    std::ofstream(crystal.folder / "scene.toml") << scene;
+    const Ended ended = crystal.fit({"--photons", "400", "--quiet", "--json", "--restart"});
+    CAPTURE(ended.output);
+    REQUIRE(ended.exit_code == cli::kSuccess);
+    const h5::File file = h5::File::open(crystal.folder / "scene_fit.h5");
+    const std::vector<std::string> effects = file.root().read_strings("not_included");
+    CHECK(effects.empty() == ideal);
+    const std::string effect = "reflection behind the sensor's window, back into the detector";
+    CHECK(contains(ended.output, effect) != ideal);
+    CHECK(contains(ended.output, "\"not_included\""));
+    const std::string sentence = ideal
+                                     ? "The detected fraction includes every effect that is modelled."
+                                     : "The detected fraction does not include: reflection behind the sensor";
+    CHECK(contains(content("scene_fit.html"), sentence));
+    if (!ideal) CHECK(effects.front() == effect + " (R6231)");
+  }
+}
+
 TEST_CASE("A measurement that cannot be fitted is refused with its place and what to do") {
   const DarkCrystal crystal("fit_refusals");
   crystal.write(kDarkFit, "5,190,7\n1,310,9\n3,240,-8\n");

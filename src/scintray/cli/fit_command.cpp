@@ -15,6 +15,7 @@
 #include "scintray/report/pages/page.hpp"
 #include "scintray/report/pages/pages.hpp"
 #include "scintray/report/text/fit_text.hpp"
+#include "scintray/report/text/result_json.hpp"
 #include "scintray/simulation/fit.hpp"
 
 namespace scintray::cli {
@@ -75,6 +76,7 @@ Json fit_json(const analysis::FitRecord& record) {
           {"chi_square", json_of(record.fit.goodness.chi2)},
           {"degrees_of_freedom", json_of(record.fit.goodness.degrees)},
           {"curve", curve},
+          {"not_included", Json::parse(report::omissions_json(record.omitted))},
           {"warnings", record.fit.warnings}};
 }
 

@@ -41,6 +41,8 @@ class FitModel {
   virtual std::uint64_t seed() const = 0;
   /// Warnings of the scene.
   virtual std::vector<std::string> notes() const = 0;
+  /// analysis::FitRecord::omitted
+  virtual std::optional<std::vector<tally::OmittedEffect>> omitted() const = 0;
 };
 
 /// Model of the fit of a scene, checked with every position, and with every parameter at its bounds.

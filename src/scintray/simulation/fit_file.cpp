@@ -157,6 +157,13 @@ void write_fit(const std::filesystem::path& path, const analysis::FitRecord& rec
   group.set_attribute("", "traced", record.thing);
   root.texts("scene", {record.scene_text}, "the complete scene file");
   root.texts("warnings", fit.warnings, "warnings of the fit");
+  if (record.omitted) {
+    std::vector<std::string> effects;
+    for (const tally::OmittedEffect& effect : *record.omitted)
+      if (effect.in_fraction)
+        effects.push_back(effect.effect + (effect.subject.empty() ? "" : " (" + effect.subject + ")"));
+    root.texts("not_included", effects, "physical effects that the simulated curves do not include");
+  }
   group.write("seed", std::vector<std::uint64_t>{record.seed}, {1});
   group.set_attribute("seed", "unit", std::string("1"));
   group.set_attribute("seed", "description", std::string("seed of the random streams of every curve"));

@@ -4,6 +4,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "scintray/analysis/goniometer/goniometer.hpp"
 #include "scintray/analysis/goniometer/sample_surface.hpp"
@@ -100,6 +101,7 @@ class SceneCurve : public FitModel {
   std::string thing() const override { return energy() ? "events" : "photons"; }
   std::uint64_t seed() const override { return seed_; }
   std::vector<std::string> notes() const override { return notes_; }
+  std::optional<std::vector<tally::OmittedEffect>> omitted() const override { return checked_->omitted(); }
 
  private:
   bool energy() const { return fit_.quantity == scene_file::FitQuantity::light_per_keV; }
@@ -254,6 +256,7 @@ class ReflectanceCurve : public FitModel {
   std::string thing() const override { return "rays"; }
   std::uint64_t seed() const override { return seed_; }
   std::vector<std::string> notes() const override { return notes_; }
+  std::optional<std::vector<tally::OmittedEffect>> omitted() const override { return std::nullopt; }
 
  private:
   double angle_rad(std::size_t point) const {

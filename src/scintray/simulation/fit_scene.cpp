@@ -54,6 +54,7 @@ analysis::FitRecord fit_scene(const scene_file::SceneFile& file, const SceneFitO
   record.traced = model->count();
   record.thing = model->thing();
   record.notes = model->notes();
+  record.omitted = model->omitted();
 
   analysis::CurveFitOptions fit;
   fit.free_scale = record.spec.free_scale;

@@ -2,12 +2,14 @@
 /// A fit of a scene to a measurement, with the content of its file and its page. Plain data.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "scintray/analysis/fit/curve_fit.hpp"
 #include "scintray/analysis/fit/measured_curve.hpp"
 #include "scintray/scene_file/fit.hpp"
+#include "scintray/tally/result.hpp"
 
 namespace scintray::analysis {
 
@@ -21,6 +23,8 @@ struct FitRecord {
   std::string thing;         ///< of which: "photons", "events", "rays"
   double wall_seconds = 0.0;
   std::vector<std::string> notes;  ///< warnings of the scene
+  /// PointResult::omitted at the start of the search; nothing for a reflectance.
+  std::optional<std::vector<tally::OmittedEffect>> omitted = {};
 };
 
 /// Name of the measured quantity, for headings: "detected fraction", "light per keV", "reflectance".

@@ -10,13 +10,14 @@
 #include "scintray/report/plots/svg_plot.hpp"
 #include "scintray/report/text/fit_text.hpp"
 #include "scintray/report/text/format.hpp"
+#include "scintray/report/text/omissions.hpp"
 
 namespace scintray::report {
 
 namespace {
 
 constexpr const char* kFitStyle = R"css(
-.note { color: var(--soft); font-size: .9rem; max-width: 48rem; }
+.note, .omitted { color: var(--soft); font-size: .9rem; max-width: 48rem; }
 figure, .scroll { margin-top: 1.25rem; }
 )css";
 
@@ -139,6 +140,7 @@ std::string fit_page(const analysis::FitRecord& record) {
     found += fit_table_html(correlation);
   found += paragraph(sentence(fit_end_text(record)) + " " + sentence(fit_goodness_text(record)));
   if (const std::string noise = fit_noise_text(record); !noise.empty()) found += paragraph(sentence(noise));
+  if (record.omitted) found += omission_note(record.omitted, Figure::fraction);
   for (const std::string& warning : fit.warnings) found += paragraph("Warning: " + warning + ".");
   for (const std::string& note : record.notes) found += paragraph("Note: " + note + ".");
   std::string body = section("What was found", found);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "scintray/report/text/format.hpp"
+#include "scintray/report/text/omissions.hpp"
 
 namespace scintray::report {
 
@@ -125,6 +126,7 @@ std::string fit_text(const analysis::FitRecord& record) {
   text += "\n" + fit_goodness_text(record) + "\n";
   if (const std::string noise = fit_noise_text(record); !noise.empty()) text += noise + "\n";
   text += "\n" + aligned(fit_curve_table(record)) + "\n";
+  if (record.omitted) text += omission_sentence(record.omitted, Figure::fraction) + "\n";
   for (const std::string& note : record.notes) text += "note: " + note + "\n";
   for (const std::string& warning : record.fit.warnings) text += "warning: " + warning + "\n";
   return text;
