@@ -47,7 +47,7 @@ const std::string kLightTallies = R"(
 [[tally]]
 type = "light_spread"
 name = "light"
-face = "pmt:crystal"
+face = "crystal:exit"
 pixels = [8, 8]
 [[tally]]
 type = "exit_angle"
@@ -242,7 +242,9 @@ TEST_CASE("Means of time, path and interactions have pulls of mean 0 and width 1
     CAPTURE(pulls.width());
     CAPTURE(before.width());
     CHECK(pulls.are_standard(kEventsOfARun));
-    CHECK_FALSE(before.are_standard(kEventsOfARun));
+    // The number of interactions of a photon, and its time, most of which is that of its emission, hardly
+    // depend on the place of its event.
+    if (member == &tally::PointResult::detected_path_mm) CHECK_FALSE(before.are_standard(kEventsOfARun));
   }
 }
 

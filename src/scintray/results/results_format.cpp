@@ -37,6 +37,7 @@ constexpr std::array kFields = {
     Field{"path_low_mm", "mm", "lower end of the bin of path length; the last bin has no upper end"},
     Field{"angle_low_deg", "deg", "lower end of the bin of angles"},
     Field{"sample", "1", "number of the sample within its row, from 0"},
+    Field{"event_group", "1", "number of the group of events: of an event, its number modulo 64"},
     Field{"bin_0", "1", "number of the bin along axis_0"},
     Field{"bin_1", "1", "number of the bin along axis_1"},
     Field{"bin_2", "1", "number of the bin along axis_2"},

@@ -198,14 +198,14 @@ void put_tallies(core::h5::Group& point, const std::vector<tally::TallyResult>& 
     put_group_sums(tally, "group_sums", from.group_sums, shape);
     put(tally, "beyond", from.outside);
     put(tally, "refractive_index", from.index);
-    std::vector<std::string> bins;
+    std::vector<std::string> bins, groups{"event_group"};
     for (std::size_t k = 0; k < from.axes.size(); ++k) bins.push_back("bin_" + std::to_string(k));
-    name_dimensions(
-        tally, {{"sum", bins}, {"sum_of_squares", bins}, {"event_squares", bins}, {"event_products", bins}});
-    if (!from.group_sums.empty()) {
-      bins.insert(bins.begin(), "event_group");
-      name_dimensions(tally, {{"group_sums", bins}});
-    }
+    groups.insert(groups.end(), bins.begin(), bins.end());
+    name_dimensions(tally, {{"sum", bins},
+                            {"sum_of_squares", bins},
+                            {"event_squares", bins},
+                            {"event_products", bins},
+                            {"group_sums", groups}});
   }
 }
 
