@@ -186,10 +186,11 @@ std::string column_name(const simulation::PropertyScan& scan) {
 std::string csv_of(const ReweightOptions& options, const tally::RunResult& run,
                    const std::vector<simulation::PropertyScan>& scans,
                    const std::vector<simulation::ReweightedPoint>& points) {
-  std::string text =
-      fmt::format("# {}\n# reweighted by ScintRay {} from {}, which ScintRay {} traced of {}, seed {}\n",
-                  run.header.title, core::version(), options.results.filename().string(), run.header.version,
-                  run.header.scene_file, run.header.seed);
+  std::string text = fmt::format(
+      "# {}\n# reweighted by ScintRay {} from {}, which ScintRay {} traced of {}, seed {}\n# {}\n",
+      run.header.title, core::version(), options.results.filename().string(), run.header.version,
+      run.header.scene_file, run.header.seed,
+      report::omission_sentence(report::omitted_anywhere(run), report::Figure::fraction));
   text += "point";
   for (const std::string& key : run.header.sweep_keys) text += "," + csv_field(key);
   for (const simulation::PropertyScan& scan : scans) text += "," + csv_field(column_name(scan));
