@@ -41,6 +41,9 @@ double reflectance(double cosine, double n1, double n2) {
 }
 
 const std::string kVacuum = "ambient = \"vacuum_n1\"\n";
+const std::string kLso300 =
+    "[media.lso_300]\nindex = { n = 1.82 }\nabsorption = { length = \"300 mm\" }\n"
+    "scattering = { none = true }\n";
 
 std::string source_in(const std::string& part, int photons, const std::string& rest = "") {
   return "[source]\ntype = \"photons\"\nwavelength = \"420 nm\"\npolarisation = \"unpolarised\"\nregion = { "
@@ -107,6 +110,24 @@ RodShares rod_shares(double n, double radius, double length, double absorption_l
   return sum;
 }
 
+/// A rod of LSO of 3 mm x 20 mm, with an absorption length of 300 mm, on a sensor.
+std::string rod_scene(int sides, int photons) {
+  return kVacuum +
+         fmt::format(R"([[part]]
+name = "rod"
+cylinder = {{ radius = "1.5 mm", height = "20 mm", segments = {} }}
+medium = "lso_300"
+surface = "flat"
+[[part]]
+name = "sensor"
+cylinder = {{ radius = "1.5 mm", height = "1 mm", segments = {} }}
+place = {{ touch = "rod", side = "-z" }}
+sensor = "perfect"
+)",
+                     sides, sides) +
+         source_in("rod", photons) + kLso300;
+}
+
 }  // namespace
 
 TEST_CASE("Law: light trapped for ever in a lossless ball, cos^3(tc)") {
@@ -150,23 +171,7 @@ TEST_CASE(
   const RodShares expected = rod_shares(kLso, 1.5, 20.0, 300.0, 1.5);
   CHECK(expected.escaped + expected.detected + expected.absorbed == doctest::Approx(1.0).epsilon(1e-5));
   for (const int sides : {12, 72, 512}) {
-    const Traced traced =
-        trace(kVacuum +
-              fmt::format(R"([[part]]
-name = "rod"
-cylinder = {{ radius = "1.5 mm", height = "20 mm", segments = {} }}
-medium = "lso_300"
-surface = "flat"
-[[part]]
-name = "sensor"
-cylinder = {{ radius = "1.5 mm", height = "1 mm", segments = {} }}
-place = {{ touch = "rod", side = "-z" }}
-sensor = "perfect"
-)",
-                          sides, sides) +
-              source_in("rod", 400'000) +
-              "[media.lso_300]\nindex = { n = 1.82 }\nabsorption = { length = \"300 mm\" }\n"
-              "scattering = { none = true }\n");
+    const Traced traced = trace(rod_scene(sides, 400'000));
     CAPTURE(sides);
     check_fraction(traced.result, Fate::detected, expected.detected);
     check_fraction(traced.result, Fate::escaped, expected.escaped);
@@ -181,9 +186,8 @@ TEST_CASE("Law: the rod as a file of triangles, in which its wall is recognized"
     const std::filesystem::path file = folder / fmt::format("rod{}.{}", sides, single ? "stl" : "ply");
     const mesh::TriMesh rod = mesh::make_cylinder(1.5, 20.0, sides);
     single ? mesh::write_stl(file, rod) : mesh::write_ply(file, rod);
-    const Traced traced =
-        trace(kVacuum +
-              fmt::format(R"([[part]]
+    const Traced traced = trace(kVacuum +
+                                fmt::format(R"([[part]]
 name = "rod"
 mesh = "{}"
 unit = "mm"
@@ -196,10 +200,8 @@ cylinder = {{ radius = "1.5 mm", height = "1 mm", segments = 40 }}
 place = {{ touch = "rod", side = "-z" }}
 sensor = "perfect"
 )",
-                          file.string()) +
-              source_in("rod", 200'000) +
-              "[media.lso_300]\nindex = { n = 1.82 }\nabsorption = { length = \"300 mm\" }\n"
-              "scattering = { none = true }\n");
+                                            file.string()) +
+                                source_in("rod", 200'000) + kLso300);
     CAPTURE(file);
     check_fraction(traced.result, Fate::detected, expected.detected);
     check_fraction(traced.result, Fate::escaped, expected.escaped);
@@ -211,24 +213,7 @@ TEST_CASE("Facets of a rod let out light that its wall would keep, and no more t
   const RodShares expected = rod_shares(kLso, 1.5, 20.0, 300.0, 1.5);
   for (const int sides : {16, 64, 256}) {
     CAPTURE(sides);
-    const std::string scene = kVacuum +
-                              fmt::format(R"([[part]]
-name = "rod"
-cylinder = {{ radius = "1.5 mm", height = "20 mm", segments = {} }}
-medium = "lso_300"
-surface = "flat"
-[[part]]
-name = "sensor"
-cylinder = {{ radius = "1.5 mm", height = "1 mm", segments = {} }}
-place = {{ touch = "rod", side = "-z" }}
-sensor = "perfect"
-)",
-                                          sides, sides) +
-                              source_in("rod", 100'000) +
-                              "[run]\ncurved = \"facets\"\n[media.lso_300]\nindex = { n = 1.82 }\nabsorption "
-                              "= { length = \"300 mm\" }\n"
-                              "scattering = { none = true }\n";
-    const Traced traced = trace(scene);
+    const Traced traced = trace(rod_scene(sides, 100'000) + "[run]\ncurved = \"facets\"\n");
     const Estimate escaped = traced.result.fraction(Fate::escaped);
     const double let_out = escaped.value - expected.escaped;
     CAPTURE(let_out);

@@ -18,8 +18,8 @@ const std::vector<ErrorKind>& kinds() {
        "The file is cut short, has flipped bits, or contradicts itself. Of a mesh or a height map the place "
        "is "
        "the line where that was found.",
-       "Fetch or export it again. A result is made again by `scintray run`, from its checkpoints with "
-       "--resume.",
+       "Download or export it again. To compute a result again, use `scintray run`; --resume continues from "
+       "its checkpoints.",
        {"is damaged", "or damaged", "damaged surface table", "damaged or truncated"}},
       // The text of a scene.
       {"toml-syntax",
