@@ -5,9 +5,9 @@
 #include <sstream>
 
 #include "mesh/box_files.hpp"
+#include "scintray/mesh/degenerate.hpp"
 #include "scintray/mesh/face_selection.hpp"
 #include "scintray/mesh/shapes/polygon.hpp"
-#include "scintray/mesh/weld.hpp"
 
 using namespace scintray;
 using namespace scintray::core;

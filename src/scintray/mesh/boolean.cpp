@@ -11,6 +11,7 @@
 #include <memory>
 #include <tuple>
 
+#include "scintray/mesh/degenerate.hpp"
 #include "scintray/mesh/detail/cgal_surface.hpp"
 #include "scintray/mesh/detail/edges.hpp"
 #include "scintray/mesh/diagnosis.hpp"

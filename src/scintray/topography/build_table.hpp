@@ -49,6 +49,9 @@ struct SpectralPoint {
   optics::IndexPair index;
 };
 
+/// Throws InputError on settings out of range, and for an empty spectrum or an index that is not positive.
+void require_valid(const TableSettings& settings, const std::vector<SpectralPoint>& spectrum);
+
 /// Progress callback: its argument is the share of the work done, 0 to 1; it returns false to stop.
 using TableProgress = std::function<bool(double)>;
 

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "scintray/contact/detail/facing.hpp"
+#include "scintray/mesh/degenerate.hpp"
 #include "scintray/mesh/diagnose_in_place.hpp"
 #include "scintray/mesh/weld.hpp"
 

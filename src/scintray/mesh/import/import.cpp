@@ -1,4 +1,5 @@
 #include "scintray/mesh/import/import.hpp"
+#include "scintray/mesh/degenerate.hpp"
 
 #include <cmath>
 #include <cstdio>

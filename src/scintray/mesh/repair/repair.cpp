@@ -1,4 +1,5 @@
 #include "scintray/mesh/repair/repair.hpp"
+#include "scintray/mesh/degenerate.hpp"
 
 #include <algorithm>
 #include <limits>

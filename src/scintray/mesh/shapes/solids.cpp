@@ -1,4 +1,5 @@
 #include "scintray/mesh/shapes/solids.hpp"
+#include "scintray/mesh/degenerate.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -10,7 +10,6 @@
 #include "scintray/core/h5.hpp"
 #include "scintray/results/detail/columns.hpp"
 #include "scintray/results/detail/file_ids.hpp"
-#include "scintray/results/detail/goniometer_columns.hpp"
 #include "scintray/results/detail/point_records.hpp"
 #include "scintray/results/detail/row_table.hpp"
 #include "scintray/results/results.hpp"
@@ -21,7 +20,6 @@ namespace scintray::results {
 namespace {
 
 using format::damaged;
-using format::has_format;
 using format::open_results;
 
 template <typename T>
@@ -380,14 +378,6 @@ class PointReader {
 
 }  // namespace
 
-bool is_results_file(const std::filesystem::path& path) {
-  try {
-    return format::has_format(core::h5::File::open(path).root());
-  } catch (const core::Error&) {
-    return false;
-  }
-}
-
 tally::RunResult read_results(const std::filesystem::path& path) {
   const core::h5::File file = format::open_results(path);
   const core::h5::Group root = file.root();
@@ -401,27 +391,6 @@ tally::RunResult read_results(const std::filesystem::path& path) {
     if (result.partial_reason.empty()) result.partial_reason = "the file is marked partial";
   }
   return result;
-}
-
-ResultsStatus read_results_status(const std::filesystem::path& path) {
-  const core::h5::File file = format::open_results(path);
-  const core::h5::Group root = file.root();
-  ResultsStatus status;
-  status.complete = root.integer_attribute("", "complete") != 0;
-  status.reason = root.string_attribute("", "partial_reason");
-  status.has_photon_list = root.has("photons");
-  if (status.has_photon_list) status.listed_photons = root.open_group("photons").shape("point").at(0);
-  if (root.has("events")) status.listed_events = root.open_group("events").shape("point").at(0);
-  return status;
-}
-
-std::vector<analysis::SurfaceAnalysis> read_surfaces(const std::filesystem::path& path) {
-  const core::h5::File file = format::open_results(path);
-  try {
-    return format::get_surface_analyses(file.root());
-  } catch (const std::invalid_argument& contradiction) {
-    throw format::damaged(path, contradiction.what());
-  }
 }
 
 }  // namespace scintray::results

@@ -1,5 +1,6 @@
 #include "scintray/exchange/gdml/detail/solid_reader.hpp"
 
+#include "scintray/mesh/degenerate.hpp"
 #include "scintray/mesh/diagnosis.hpp"
 #include "scintray/mesh/shapes/polygon.hpp"
 #include "scintray/mesh/weld.hpp"
