@@ -1,9 +1,11 @@
-# scintray_module(NAME [NOT_TRACING] [NOT_IN_THREADS] [LINK modules and libraries] [PRIVATE_LINK libraries] [WITHOUT sources]
-# [JOIN number]) makes the static library scintray_NAME of every source of src/scintray/NAME, less those of WITHOUT.
+# scintray_module(NAME [NOT_TRACING | PREPARING] [NOT_IN_THREADS] [LINK modules and libraries] [PRIVATE_LINK libraries]
+# [WITHOUT sources] [JOIN number]) makes the static library scintray_NAME of every source of src/scintray/NAME, less those of WITHOUT.
 # Headers are included as "scintray/NAME/header.hpp", their path below src/; those in a folder called detail are not
 # installed. Where sources are joined, JOIN of them are (12; what all of them include is compiled once for each join).
 # A module named in SCINTRAY_APART is compiled file by file all the same: for daily work on it.
-# NOT_TRACING: the module reads, writes and prints, and a release of it is compiled in less time, with -O1.
+# NOT_TRACING: the module reads, writes and prints, and a release of it is compiled in less time, with -O1; where a
+# sanitizer is added, without optimisation.
+# PREPARING: the module makes what is traced; the same for a release, but optimised where a sanitizer is added.
 # NOT_IN_THREADS: in the tests of what runs on many threads one thread alone runs it, before or after the others; the
 # thread sanitizer is left out of it.
 add_library(scintray_options INTERFACE)
@@ -52,7 +54,10 @@ if(SCINTRAY_FUZZ)
 endif()
 
 function(scintray_module name)
-  cmake_parse_arguments(MODULE "NOT_TRACING;NOT_IN_THREADS" "JOIN" "LINK;PRIVATE_LINK;WITHOUT" ${ARGN})
+  cmake_parse_arguments(MODULE "NOT_TRACING;PREPARING;NOT_IN_THREADS" "JOIN" "LINK;PRIVATE_LINK;WITHOUT" ${ARGN})
+  if(MODULE_PREPARING AND NOT SCINTRAY_SANITIZE)
+    set(MODULE_NOT_TRACING TRUE)
+  endif()
   if(NOT MODULE_JOIN)
     set(MODULE_JOIN 12)
   endif()
