@@ -214,7 +214,7 @@ std::vector<std::string> map_warnings(const HeightMap& map, const MapStatistics&
         100.0 * fall));
   const double width = std::min(map.columns * map.pitch_x_um, map.rows * map.pitch_y_um);
   if (!texture.sal_um && statistics.sq_um > 0.0)
-    warnings.push_back(
+    warnings.emplace_back(
         "the map is too small: its autocorrelation does not fall to 0.2 within half the map; level it, or "
         "measure a larger field");
   if (texture.sal_um && width / *texture.sal_um < kLeastLengths)

@@ -1,6 +1,7 @@
 #include "scintray/transport/batch.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "scintray/core/error.hpp"
 #include "scintray/scene/boundary.hpp"
@@ -133,20 +134,19 @@ void Batch::trace_in_lanes() {
 void Batch::propagate(const Waiting* first, const Waiting* last) {
   const scene::Boundary& boundary = scene_.accelerators[first->accelerator]->boundary();
   const LaneLimits limits{static_cast<double>(limits_.interactions), limits_.time_ns};
-  work_.clear();
-  for (const Waiting* waiting = first; waiting != last; ++waiting)
-    work_.push_back(work_of(waiting->traveller));
-  propagate_(lane_planes(boundary), limits, work_.data(), work_.size());
-  for (std::size_t i = 0; i < work_.size(); ++i) finish(work_[i], boundary, first[i].traveller);
+  const auto count = static_cast<std::size_t>(last - first);
+  if (work_.size() < count) work_.resize(count);
+  for (std::size_t i = 0; i < count; ++i) set_work(first[i].traveller, work_[i]);
+  propagate_(lane_planes(boundary), limits, work_.data(), count);
+  for (std::size_t i = 0; i < count; ++i) finish(work_[i], boundary, first[i].traveller);
 }
 
-LaneWork Batch::work_of(std::uint32_t index) {
+void Batch::set_work(std::uint32_t index, LaneWork& work) {
   Traveller& traveller = travellers_[index];
   const source::Photon& photon = traveller.photon;
   double* const least_sin2 = least_sin2_.data() + index * most_planes_;
   if (traveller.angles_of != photon.region || traveller.angles_nm != photon.wavelength_nm)
     set_critical_angles(traveller, least_sin2);
-  LaneWork work;  // NOLINT(cppcoreguidelines-pro-type-member-init): the kernel sets the results
   copy(photon.position, work.position);
   copy(photon.ray.direction, work.direction);
   copy(photon.ray.polarisation, work.polarisation);
@@ -158,7 +158,6 @@ LaneWork Batch::work_of(std::uint32_t index) {
   work.interactions = photon.interactions;
   copy(scene_.regions[photon.region].centre, work.centre);
   work.least_sin2 = least_sin2;
-  return work;
 }
 
 void Batch::set_critical_angles(Traveller& traveller, double* least_sin2) const {
@@ -209,19 +208,19 @@ void Batch::finish(const LaneWork& work, const scene::Boundary& boundary, std::u
     replace(index);
 }
 
-bool Batch::goes_on(Traveller& traveller, Step taken) {
-  taken.segments += traveller.segments;
-  traveller.segments = 0;
-  TracedPhoton& traced = traced_[traveller.number];
-  if (core::is_final(taken.event)) {
-    traced = {traveller.photon, taken, std::nullopt};
-    return false;
+bool Batch::goes_on(Traveller& traveller, const Step& taken) {
+  const std::uint32_t segments = taken.segments + std::exchange(traveller.segments, 0);
+  const bool ends = core::is_final(taken.event);
+  const std::optional<core::Fate> cut = ends ? std::nullopt : limits_.reached(traveller.photon);
+  if (!ends) {
+    counts_.segments += segments;
+    counts_.resolved += taken.resolved;
+    if (!cut) return true;
   }
-  counts_.segments += taken.segments;
-  counts_.resolved += taken.resolved;
-  const std::optional<core::Fate> cut = limits_.reached(traveller.photon);
-  if (cut) traced = {traveller.photon, taken, cut};
-  return !cut;
+  TracedPhoton& traced = traced_[traveller.number];
+  traced = {traveller.photon, taken, cut};
+  traced.last.segments = segments;
+  return false;
 }
 
 }  // namespace scintray::transport

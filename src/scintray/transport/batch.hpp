@@ -81,11 +81,12 @@ class Batch {
   void trace_alone(std::uint32_t traveller);
   void trace_in_lanes();
   void propagate(const Waiting* first, const Waiting* last);
-  LaneWork work_of(std::uint32_t traveller);
+  /// All of `work` but the results, in its place: copies of what was just written wait for it.
+  void set_work(std::uint32_t traveller, LaneWork& work);
   void set_critical_angles(Traveller& traveller, double* least_sin2) const;
   void finish(const LaneWork& work, const scene::Boundary& boundary, std::uint32_t traveller);
   /// True when the photon goes on after the step; else its end is noted, and the next photon takes its place.
-  bool goes_on(Traveller& traveller, Step taken);
+  bool goes_on(Traveller& traveller, const Step& taken);
   void replace(std::uint32_t traveller);
 
   const scene::Scene& scene_;

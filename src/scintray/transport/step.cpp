@@ -90,20 +90,19 @@ template <typename State>
 
 /// Propagation of the photon through its region, up to the next event. Depends on its arguments alone.
 Propagation propagate(const scene::Scene& scene, source::Photon& photon, const PropagationLimits& limits) {
-  if (scene.regions[photon.region].curved) [[unlikely]]
-    return propagate_between_curves(scene, photon, limits);
-  Propagation propagation = propagate_as<StoredPropagation>(scene, photon, limits);
-  if (propagation.end == PropagationEnd::total && limits.allow(photon.interactions, photon.time_ns))
+  const bool curved = scene.regions[photon.region].curved;
+  Propagation propagation = curved ? propagate_between_curves(scene, photon, limits)
+                                   : propagate_as<StoredPropagation>(scene, photon, limits);
+  if (!curved && propagation.end == PropagationEnd::total && limits.allow(photon.interactions, photon.time_ns))
     go_on_with_embree(scene, photon, limits, propagation);
   return propagation;
 }
 
-Step interact_in_bulk(const scene::Scene& scene, core::MediumId id, source::Photon& photon, core::Rng& rng,
-                      source::PhotonRecords* records) {
+void interact_in_bulk(const scene::Scene& scene, core::MediumId id, source::Photon& photon, core::Rng& rng,
+                      source::PhotonRecords* records, Step& result) {
   const scene::MediumRecord& medium = scene.optics.media[id];
   const double absorption = photon.optics.absorption_per_mm;
   const double total = absorption + photon.optics.scattering_per_mm;
-  Step result;
   if (rng.uniform() * total < absorption) {
     if (medium.shifts && shift_in_bulk(scene, id, photon, rng, records)) {
       photon.optical_depth = core::sample_exponential(rng);
@@ -112,7 +111,7 @@ Step interact_in_bulk(const scene::Scene& scene, core::MediumId id, source::Phot
       result.event = core::StepEvent::absorbed_in_medium;
       result.medium = id;
     }
-    return result;
+    return;
   }
   if (!medium.particles || !scatter_at_particles(scene, id, photon, rng)) {
     if (medium.scattering == optics::ScatteringKind::rayleigh)
@@ -123,7 +122,6 @@ Step interact_in_bulk(const scene::Scene& scene, core::MediumId id, source::Phot
   photon.optical_depth = core::sample_exponential(rng);
   ++photon.scatterings;
   result.event = core::StepEvent::scattered;
-  return result;
 }
 
 /// Medium and angle in which light reaches a sensor.
@@ -195,24 +193,23 @@ inline void cross(const scene::Scene& scene, const scene::Interface& interface, 
   }
 }
 
-Step step_at(const scene::BoundaryLink& link, const BoundaryPlace& at, const source::Photon& photon) {
-  Step step;
+void set_place(const scene::BoundaryLink& link, const BoundaryPlace& at, const source::Photon& photon,
+               Step& step) {
   step.interface = link.interface;
   step.triangle = at.triangle;
   step.from_back = link.from_back;
   step.cos_before = at.cos_before;
   step.region = photon.region;
-  return step;
 }
 
-Step interact_at_boundary(const scene::Scene& scene, std::uint32_t triangle, source::Photon& photon,
-                          core::Rng& rng, source::PhotonRecords* records) {
+void interact_at_boundary(const scene::Scene& scene, std::uint32_t triangle, source::Photon& photon,
+                          core::Rng& rng, source::PhotonRecords* records, Step& result) {
   const scene::Region& region = scene.regions[photon.region];
   const scene::SceneOptics& optics = scene.optics;
   const scene::BoundaryLink link = scene.link(region, triangle);
   const scene::Interface& interface = scene.interfaces[link.interface];
   const core::Vec3 outward = scene.normal_at(region, triangle, photon.position);
-  Step result = step_at(link, {triangle, std::abs(photon.ray.direction.dot(outward))}, photon);
+  set_place(link, {triangle, std::abs(photon.ray.direction.dot(outward))}, photon, result);
   const double here = photon.optics.index, there = index_behind(scene, link, photon);
   const bool dry = interface.gap_medium.has_value();
   const double gap = dry ? optics.index(interface.gap_medium, photon.wavelength_nm) : 0.0;
@@ -230,19 +227,15 @@ Step interact_at_boundary(const scene::Scene& scene, std::uint32_t triangle, sou
     if (photon.wavelength_nm != before_nm) photon.optics = optics.at(region.medium, photon.wavelength_nm);
     if (outcome.absorbed_by.has_value()) {
       result.surface = outcome.absorbed_by;
-      absorb_at_surface(scene, interface, photon, result);
-      return result;
+      return absorb_at_surface(scene, interface, photon, result);
     }
     crossed = outcome.in_front == link.from_back;
   }
   result.cos_after = std::abs(photon.ray.direction.dot(outward));
-  if (!crossed) {
+  if (crossed)
+    cross(scene, interface, there, photon, result);
+  else
     result.event = core::StepEvent::reflected;
-    return result;
-  }
-
-  cross(scene, interface, there, photon, result);
-  return result;
 }
 
 }  // namespace
@@ -259,7 +252,8 @@ double index_behind(const scene::Scene& scene, const scene::BoundaryLink& link,
 Step cross_boundary(const scene::Scene& scene, const BoundaryPlace& at, source::Photon& photon) {
   const scene::Region& region = scene.regions[photon.region];
   const scene::BoundaryLink& link = scene.link(region, at.triangle);
-  Step result = step_at(link, at, photon);
+  Step result;
+  set_place(link, at, photon, result);
   result.cos_after =
       std::abs(photon.ray.direction.dot(scene.normal_at(region, at.triangle, photon.position)));
   cross(scene, scene.interfaces[link.interface], index_behind(scene, link, photon), photon, result);
@@ -269,7 +263,8 @@ Step cross_boundary(const scene::Scene& scene, const BoundaryPlace& at, source::
 Step absorb_at_boundary(const scene::Scene& scene, const BoundaryPlace& at, core::SurfaceId by,
                         const source::Photon& photon) {
   const scene::BoundaryLink& link = scene.link(scene.regions[photon.region], at.triangle);
-  Step result = step_at(link, at, photon);
+  Step result;
+  set_place(link, at, photon, result);
   result.surface = by;
   absorb_at_surface(scene, scene.interfaces[link.interface], photon, result);
   return result;
@@ -289,6 +284,7 @@ Step interact_at(const scene::Scene& scene, std::uint32_t triangle, source::Phot
 
 Step end_of_step(const scene::Scene& scene, const Propagation& propagation, source::Photon& photon,
                  core::Rng& rng, source::PhotonRecords* records) {
+  // Everything that follows writes into the one result: a copy of what was just written byte by byte waits for it.
   const core::RegionId from = photon.region;
   Step result;
   switch (propagation.end) {
@@ -296,13 +292,13 @@ Step end_of_step(const scene::Scene& scene, const Propagation& propagation, sour
       photon.on_triangle = scene::kNoTriangle;
       advance(photon,
               photon.optical_depth / (photon.optics.absorption_per_mm + photon.optics.scattering_per_mm));
-      result = interact_in_bulk(scene, scene.regions[from].medium, photon, rng, records);
+      interact_in_bulk(scene, scene.regions[from].medium, photon, rng, records, result);
       break;
     case PropagationEnd::escape:
       result.event = core::StepEvent::escaped;
       break;
     case PropagationEnd::boundary:
-      result = interact_at_boundary(scene, propagation.triangle, photon, rng, records);
+      interact_at_boundary(scene, propagation.triangle, photon, rng, records, result);
       break;
     case PropagationEnd::total:
       result = total_reflection(scene, photon, propagation.triangle, propagation.cosine);
