@@ -1,10 +1,14 @@
 // Files cut short or damaged anywhere end in success or an InputError, never otherwise.
+#include <filesystem>
+#include <fstream>
 #include <sstream>
 
 #include "bad_input/good_scene.hpp"
 #include "bad_input/marked_text.hpp"
 #include "scintray/core/philox.hpp"
+#include "scintray/scene/build_scene.hpp"
 #include "scintray/scene_file/read_scene.hpp"
+#include "support/shared.hpp"
 
 using namespace scintray;
 using namespace scintray::core;
@@ -76,4 +80,43 @@ TEST_CASE("a scene with any line left out, doubled or moved never crashes") {
     }
   }
   CHECK(refusals > lines.size());
+}
+
+TEST_CASE("an error of a file that the scene names has the place that names it") {
+  const std::filesystem::path folder = scratch_folder("named_file");
+  const auto write = [&](const char* name, const std::string& text) { std::ofstream(folder / name) << text; };
+  write("crystal.stl", "solid\nfoo");
+  write("ground.gsf", "abc");
+  write("table.h5", "\x89HDF\r\n\x1a\n");
+  const auto crystal = [](const std::string& shape, const std::string& surface) {
+    return "ambient = \"vacuum\"\n[[part]]\nname = \"crystal\"\n" + shape +
+           "\nmedium = \"LSO\"\nsurface = \"" + surface +
+           "\"\n[source]\ntype = \"photons\"\nregion = { part = \"crystal\" }\nwavelength = \"420 nm\"\n"
+           "photons = 10\n";
+  };
+  const std::string box = "box = [\"2 mm\", \"2 mm\", \"20 mm\"]";
+  const struct {
+    const char* file;
+    std::string scene;
+  } damaged[] = {
+      {"crystal.stl", crystal("mesh = \"crystal.stl\"\nunit = \"mm\"", "polished")},
+      {"ground.gsf", crystal(box, "mine") +
+                         "[surfaces.mine]\nmodel = \"height_map\"\n[surfaces.mine.height_map]\n"
+                         "file = \"ground.gsf\"\nlevel = \"plane\"\n"},
+      {"table.h5", crystal(box, "mine") +
+                       "[surfaces.mine]\nmodel = \"table\"\n[surfaces.mine.table]\nfile = \"table.h5\"\n"}};
+  for (const auto& [file, scene] : damaged) {
+    CAPTURE(std::string(file));
+    write("scene.toml", scene);
+    const std::vector<Problem> found = problems_of([&] {
+      scene::SceneBuilder builder;
+      builder.build(SceneFile::load(folder / "scene.toml").spec(0));
+    });
+    REQUIRE(found.size() == 1);
+    CAPTURE(found[0].text());
+    CHECK(found[0].where.file.find(file) != std::string::npos);
+    const std::size_t at = found[0].hint.find("the file is named at ");
+    REQUIRE(at != std::string::npos);
+    CHECK(found[0].hint.find("scene.toml:", at) != std::string::npos);
+  }
 }

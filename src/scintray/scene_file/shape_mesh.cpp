@@ -1,3 +1,4 @@
+#include "scintray/core/named_file.hpp"
 #include "scintray/mesh/shapes/primitives.hpp"
 #include "scintray/scene_file/shape_files.hpp"
 
@@ -11,8 +12,10 @@ struct MeshMaker {
   const mesh::MeshFormats& formats;
 
   ShapeMesh operator()(const MeshFileSpec& file) const {
-    mesh::MeshImport imported = files.import(
-        file.path, {file.unit_mm.value_or(0.0), file.scale, file.body, file.tessellation, &formats});
+    mesh::MeshImport imported = core::read_named_file(file.where, [&] {
+      return files.import(file.path,
+                          {file.unit_mm.value_or(0.0), file.scale, file.body, file.tessellation, &formats});
+    });
     return {std::move(imported.mesh), std::move(imported.notes)};
   }
   ShapeMesh operator()(const BoxSpec& box) const {

@@ -93,7 +93,8 @@ Propagation propagate(const scene::Scene& scene, source::Photon& photon, const P
   const bool curved = scene.regions[photon.region].curved;
   Propagation propagation = curved ? propagate_between_curves(scene, photon, limits)
                                    : propagate_as<StoredPropagation>(scene, photon, limits);
-  if (!curved && propagation.end == PropagationEnd::total && limits.allow(photon.interactions, photon.time_ns))
+  if (!curved && propagation.end == PropagationEnd::total &&
+      limits.allow(photon.interactions, photon.time_ns))
     go_on_with_embree(scene, photon, limits, propagation);
   return propagation;
 }
@@ -284,7 +285,8 @@ Step interact_at(const scene::Scene& scene, std::uint32_t triangle, source::Phot
 
 Step end_of_step(const scene::Scene& scene, const Propagation& propagation, source::Photon& photon,
                  core::Rng& rng, source::PhotonRecords* records) {
-  // Everything that follows writes into the one result: a copy of what was just written byte by byte waits for it.
+  // Everything that follows writes into the one result: a copy of what was just written byte by byte waits
+  // for it.
   const core::RegionId from = photon.region;
   Step result;
   switch (propagation.end) {

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "scintray/core/named_file.hpp"
 #include "scintray/materials/built_in_microsurfaces.hpp"
 #include "scintray/materials/detail/surface_values.hpp"
 #include "scintray/materials/surface_models.hpp"
@@ -86,7 +87,8 @@ HeightMapSpec read_height_map_spec(const config::TomlTable& surface) {
 std::string HeightMapSpec::relief_key() const { return height_map_key({path, options, preparation, tiling}); }
 
 Relief HeightMapSpec::make_relief() const {
-  topography::HeightMap map = topography::read_height_map(path, options);
+  topography::HeightMap map =
+      core::read_named_file(where, [&] { return topography::read_height_map(path, options); });
   topography::prepare(map, preparation);
   Relief result;
   result.provenance.map = path.filename().string();

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "scintray/core/named_file.hpp"
 #include "scintray/materials/built_in_microsurfaces.hpp"
 #include "scintray/materials/index_tolerance.hpp"
 #include "scintray/materials/surface_models.hpp"
@@ -8,7 +9,8 @@
 namespace scintray::materials {
 
 optics::Microsurface TableFileSpec::make(const SurfaceSetting& setting, ReliefStore&) const {
-  const auto table = std::make_shared<const optics::SurfaceTable>(optics::read_table(path));
+  const auto table = core::read_named_file(
+      where, [&] { return std::make_shared<const optics::SurfaceTable>(optics::read_table(path)); });
   const std::string& name = setting.stack.name;
   if (table->absorbs() && (setting.stack.reflector || setting.stack.gap_thickness_um))
     throw core::InputError(
