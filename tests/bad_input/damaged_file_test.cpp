@@ -95,26 +95,26 @@ TEST_CASE("an error of a file that the scene names has the place that names it")
            "photons = 10\n";
   };
   const std::string box = "box = [\"2 mm\", \"2 mm\", \"20 mm\"]";
-  const struct {
-    const char* file;
-    std::string scene;
-  } damaged[] = {
+  struct Damaged {
+    std::string file, scene;
+  };
+  const Damaged damaged[] = {
       {"crystal.stl", crystal("mesh = \"crystal.stl\"\nunit = \"mm\"", "polished")},
       {"ground.gsf", crystal(box, "mine") +
                          "[surfaces.mine]\nmodel = \"height_map\"\n[surfaces.mine.height_map]\n"
                          "file = \"ground.gsf\"\nlevel = \"plane\"\n"},
       {"table.h5", crystal(box, "mine") +
                        "[surfaces.mine]\nmodel = \"table\"\n[surfaces.mine.table]\nfile = \"table.h5\"\n"}};
-  for (const auto& [file, scene] : damaged) {
-    CAPTURE(std::string(file));
-    write("scene.toml", scene);
+  for (const Damaged& one : damaged) {
+    CAPTURE(one.file);
+    write("scene.toml", one.scene);
     const std::vector<Problem> found = problems_of([&] {
       scene::SceneBuilder builder;
       builder.build(SceneFile::load(folder / "scene.toml").spec(0));
     });
     REQUIRE(found.size() == 1);
     CAPTURE(found[0].text());
-    CHECK(found[0].where.file.find(file) != std::string::npos);
+    CHECK(found[0].where.file.find(one.file) != std::string::npos);
     const std::size_t at = found[0].hint.find("the file is named at ");
     REQUIRE(at != std::string::npos);
     CHECK(found[0].hint.find("scene.toml:", at) != std::string::npos);
