@@ -90,6 +90,7 @@ TEST_CASE("A measurement that cannot be fitted is refused with its place and wha
   crystal.write(kDarkFit, "5,190,7\n1,310,9\n3,240,-8\n");
   crystal.refuses({"light.csv:2: error:", "position of 1 after 5"}, "sort the rows");
   crystal.refuses({"light.csv:3: error:", "error of -8", "more than 0"}, "standard deviation");
+  crystal.refuses("light.csv:3: error:", "the file is named at scene.toml:24:15");
   crystal.write(kDarkFit, "1,310,9\n");
   crystal.refuses({"1 measured points", "2 at least", "1 parameters", "scale"}, "fit fewer parameters");
   crystal.write(kDarkFit, "1,310\n3,240\n5,180\n");

@@ -1,5 +1,5 @@
 #pragma once
-/// Errors of a file that another file names: a scene's mesh, table or height map.
+/// Errors of a file that another file names: a scene's mesh, table, height map or measured curve.
 
 #include "scintray/core/error.hpp"
 

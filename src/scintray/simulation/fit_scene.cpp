@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "scintray/core/named_file.hpp"
 #include "scintray/core/version.hpp"
 
 namespace scintray::simulation {
@@ -43,7 +44,8 @@ analysis::FitRecord fit_scene(const scene_file::SceneFile& file, const SceneFitO
   const scene_file::SceneSpec scene = file.spec(0);
   analysis::FitRecord record;
   record.spec = fit_of(scene);
-  record.measured = analysis::read_measured_curve(record.spec.measurement);
+  record.measured = core::read_named_file(
+      record.spec.measurement_where, [&] { return analysis::read_measured_curve(record.spec.measurement); });
   check_errors(record.spec, record.measured);
   const std::unique_ptr<FitModel> model = make_fit_model(file, record.spec, record.measured, options.model);
   record.title = scene.title;
