@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <cstring>
 #include <fstream>
 #include <iostream>
 
@@ -118,6 +119,27 @@ TEST_CASE("A file without a seal and with flipped bits is read or refused, never
     refused += complaint(path).empty() ? 0 : 1;
   }
   CHECK(refused > 10);
+}
+
+TEST_CASE("Texts whose heap HDF5 would walk through for ever are refused without waiting for it") {
+  const auto folder = scratch_folder("h5_heap");
+  const std::string sound = unsealed(small_file(folder / "sound.h5"));
+  const std::size_t heap = sound.find("GCOL");
+  REQUIRE(heap != std::string::npos);
+  const std::size_t first = heap + 16;  // its first object: index, references, length at the 8th byte
+  struct Harm {
+    std::uint16_t index;
+    std::uint64_t length;
+  };
+  for (const Harm& harm : {Harm{0, 0}, Harm{1, ~std::uint64_t{15}}, Harm{1, ~std::uint64_t{0}}}) {
+    CAPTURE(harm.index);
+    CAPTURE(harm.length);
+    std::string bytes = sound;
+    std::memcpy(bytes.data() + first, &harm.index, sizeof harm.index);
+    std::memcpy(bytes.data() + first + 8, &harm.length, sizeof harm.length);
+    put_bytes(folder / "harmed.h5", bytes);
+    CHECK(contains(complaint(folder / "harmed.h5"), "no length"));
+  }
 }
 
 TEST_CASE("References to other files are refused before they are followed, and are no damage") {

@@ -1,7 +1,8 @@
 /// fuzz_driver [TARGET [N [SEED]]]: N damaged files at the reader TARGET, by number from SEED; without
 /// arguments the names of all readers. They are read by child processes, with 10 s for each and 1 GB for all
-/// that one holds. What ends a child is written to the file fuzz-TARGET-SEED-NUMBER. Exit code 1 if there was
-/// any.
+/// that one holds. Where a reader has a process of its own for a library that may crash, it does that work in
+/// place here, as this process is such a one; a file that ends it is given to the reader as users have it.
+/// What ends that, too, is written to the file fuzz-TARGET-SEED-NUMBER. Exit code 1 if there was any.
 
 #include <sys/mman.h>
 #include <sys/resource.h>
@@ -17,13 +18,17 @@
 #include <exception>
 #include <fstream>
 #include <new>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "corpus.hpp"
+#include "detector_entries.hpp"
 #include "entries.hpp"
 #include "geometry_entries.hpp"
 #include "mutate.hpp"
 #include "own_entries.hpp"
+#include "scintray/core/child_process.hpp"
 #include "scintray/core/philox.hpp"
 
 namespace {
@@ -37,7 +42,7 @@ constexpr std::uint64_t kPerChild = 2000;
 
 std::vector<Entry> all_entries() {
   std::vector<Entry> all;
-  for (const auto& list : {entries(), geometry_entries(), own_entries()})
+  for (const auto& list : {entries(), geometry_entries(), detector_entries(), own_entries()})
     all.insert(all.end(), list.begin(), list.end());
   return all;
 }
@@ -48,7 +53,7 @@ std::string input(const std::vector<std::string>& seeds, std::uint64_t seed, std
   return mutated(seeds[number % seeds.size()], seeds, rng);
 }
 
-/// Reads the files from `first` to `last` and states in `at` which is being read.
+/// Reads the files from `at` to `last`; `at` states to the parent which is being read.
 [[noreturn]] void read_all(const Entry& entry, const std::vector<std::string>& seeds, std::uint64_t seed,
                            std::uint64_t last, std::atomic<std::uint64_t>& at) {
   const rlimit limit{kBytes, kBytes};
@@ -67,38 +72,74 @@ std::string input(const std::vector<std::string>& seeds, std::uint64_t seed, std
   _exit(0);
 }
 
-int fuzz_reader(const Entry& entry, std::uint64_t count, std::uint64_t seed) {
-  const std::vector<std::string> seeds = entry.seeds();
-  void* shared = mmap(nullptr, sizeof(std::atomic<std::uint64_t>), PROT_READ | PROT_WRITE,
-                      MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-  if (shared == MAP_FAILED) return 2;
-  std::atomic<std::uint64_t>& at = *new (shared) std::atomic<std::uint64_t>(0);
-  int found = 0;
-  while (at < count) {
-    const std::uint64_t last = std::min<std::uint64_t>(count, at + kPerChild);
+enum class OwnProcesses { as_users_have_them, in_place };
+
+class Fuzzer {
+ public:
+  Fuzzer(const Entry& entry, std::uint64_t seed)
+      : entry_(entry),
+        seed_(seed),
+        seeds_(all_seeds(entry)),
+        at_(*new (shared()) std::atomic<std::uint64_t>(0)) {}
+
+  /// Exit code of the program.
+  int run(std::uint64_t count) {
+    while (at_ < count) {
+      const std::uint64_t last = std::min<std::uint64_t>(count, at_ + kPerChild);
+      if (ends_well(last, OwnProcesses::in_place)) continue;
+      const std::uint64_t number = at_;
+      if (ends_well(number + 1, OwnProcesses::as_users_have_them))
+        ++withstood_;
+      else
+        keep(number);
+      at_ = number + 1;
+    }
+    std::printf("%-20s %10llu inputs from seed %llu, %llu ended a process of the reader's own, %d found\n",
+                entry_.name, static_cast<unsigned long long>(count), static_cast<unsigned long long>(seed_),
+                static_cast<unsigned long long>(withstood_), found_);
+    return found_ > 0 ? 1 : 0;
+  }
+
+ private:
+  static void* shared() {
+    void* memory = mmap(nullptr, sizeof(std::atomic<std::uint64_t>), PROT_READ | PROT_WRITE,
+                        MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    if (memory == MAP_FAILED) throw std::bad_alloc();
+    return memory;
+  }
+
+  bool ends_well(std::uint64_t last, OwnProcesses processes) {
     const pid_t child = fork();
-    if (child < 0) return 2;
-    if (child == 0) read_all(entry, seeds, seed, last, at);
-    int status = 0;
-    waitpid(child, &status, 0);
-    if (status == 0) continue;
-    ++found;
-    const std::uint64_t number = at;
+    if (child < 0) throw std::runtime_error("cannot make a process");
+    if (child == 0) {
+      if (processes == OwnProcesses::in_place) core::work_in_place();
+      read_all(entry_, seeds_, seed_, last, at_);
+    }
+    waitpid(child, &status_, 0);
+    return status_ == 0;
+  }
+
+  void keep(std::uint64_t number) {
+    ++found_;
     const std::string name =
-        std::string("fuzz-") + entry.name + "-" + std::to_string(seed) + "-" + std::to_string(number);
-    std::ofstream(name, std::ios::binary) << input(seeds, seed, number);
-    const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+        std::string("fuzz-") + entry_.name + "-" + std::to_string(seed_) + "-" + std::to_string(number);
+    std::ofstream(name, std::ios::binary) << input(seeds_, seed_, number);
+    const int signal = WIFSIGNALED(status_) ? WTERMSIG(status_) : 0;
     std::printf("%s: %s (%s)\n", name.c_str(),
                 signal == SIGALRM ? "took over 10 s"
                 : signal          ? strsignal(signal)
                                   : "no input error",
-                entry.name);
-    at = number + 1;
+                entry_.name);
+    std::fflush(stdout);
   }
-  std::printf("%-20s %10llu inputs from seed %llu, %d found\n", entry.name,
-              static_cast<unsigned long long>(count), static_cast<unsigned long long>(seed), found);
-  return found > 0 ? 1 : 0;
-}
+
+  const Entry& entry_;
+  std::uint64_t seed_;
+  std::vector<std::string> seeds_;
+  std::atomic<std::uint64_t>& at_;
+  int status_ = 0, found_ = 0;
+  std::uint64_t withstood_ = 0;
+};
 
 }  // namespace
 
@@ -107,8 +148,8 @@ int main(int count, char** words) {
     if (count < 2)
       std::puts(entry.name);
     else if (std::strcmp(entry.name, words[1]) == 0)
-      return fuzz_reader(entry, count > 2 ? std::strtoull(words[2], nullptr, 10) : 10'000,
-                         count > 3 ? std::strtoull(words[3], nullptr, 10) : 1);
+      return Fuzzer(entry, count > 3 ? std::strtoull(words[3], nullptr, 10) : 1)
+          .run(count > 2 ? std::strtoull(words[2], nullptr, 10) : 10'000);
   }
   return count < 2 ? 0 : 2;
 }

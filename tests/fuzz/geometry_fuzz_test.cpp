@@ -1,9 +1,12 @@
-/// The readers of geometry against files damaged at random, from a fixed seed.
+/// The readers of geometry and of detectors against files damaged at random, from a fixed seed.
 
 #include <doctest/doctest.h>
 
 #include <string_view>
+#include <vector>
 
+#include "corpus.hpp"
+#include "detector_entries.hpp"
 #include "geometry_entries.hpp"
 #include "mutate.hpp"
 #include "scintray/core/philox.hpp"
@@ -13,10 +16,21 @@ using namespace scintray;
 using namespace scintray::core;
 using namespace scintray::fuzz;
 
+namespace {
+
+std::vector<Entry> both_entries() {
+  std::vector<Entry> entries(geometry_entries().begin(), geometry_entries().end());
+  entries.insert(entries.end(), detector_entries().begin(), detector_entries().end());
+  return entries;
+}
+
+}  // namespace
+
 TEST_CASE("geometry: the seeds are sound") {
-  for (const Entry& entry : geometry_entries()) {
-    CAPTURE(entry.name);
-    for (const std::string& seed : entry.seeds()) CHECK(watched_run(entry, seed));
+  for (const Entry& entry : both_entries()) {
+    CAPTURE(std::string(entry.name));
+    for (const std::string& seed : sound_seeds(entry)) CHECK(watched_run(entry, seed));
+    for (const std::string& content : found(entry.name)) watched_run(entry, content);
   }
 }
 
@@ -28,9 +42,9 @@ TEST_CASE("geometry: damaged files end in a whole mesh or an input error, within
   constexpr int kMostTrials = 1000, kStepTrials = 150;
 #endif
   std::uint64_t stream = 0;
-  for (const Entry& entry : geometry_entries()) {
-    CAPTURE(entry.name);
-    const std::vector<std::string> seeds = entry.seeds();
+  for (const Entry& entry : both_entries()) {
+    CAPTURE(std::string(entry.name));
+    const std::vector<std::string> seeds = all_seeds(entry);
     Rng rng(20261123, StreamKind::other, ++stream);
     const int trials = std::string_view(entry.name) == "step" ? kStepTrials : kMostTrials;
     int read = 0;
@@ -45,8 +59,8 @@ TEST_CASE("geometry: damaged files end in a whole mesh or an input error, within
 }
 
 TEST_CASE("geometry: files cut short end in a mesh or an input error") {
-  for (const Entry& entry : geometry_entries())
-    for (const std::string& seed : entry.seeds())
+  for (const Entry& entry : both_entries())
+    for (const std::string& seed : all_seeds(entry))
       for (std::size_t size = 0; size < seed.size(); size += 1 + seed.size() / 100)
         watched_run(entry, seed.substr(0, size));
 }

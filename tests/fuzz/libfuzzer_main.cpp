@@ -5,13 +5,16 @@
 #include <filesystem>
 #include <fstream>
 
+#include "corpus.hpp"
+#include "detector_entries.hpp"
 #include "entries.hpp"
 #include "geometry_entries.hpp"
 
 namespace {
 
 const scintray::fuzz::Entry& entry() {
-  for (const auto& entries : {scintray::fuzz::entries(), scintray::fuzz::geometry_entries()})
+  for (const auto& entries :
+       {scintray::fuzz::entries(), scintray::fuzz::geometry_entries(), scintray::fuzz::detector_entries()})
     for (const scintray::fuzz::Entry& candidate : entries)
       if (std::strcmp(candidate.name, SCINTRAY_FUZZ_ENTRY) == 0) return candidate;
   std::abort();
@@ -24,7 +27,7 @@ extern "C" int LLVMFuzzerInitialize(int* count, char*** words) {
   for (int k = 1; k < *count; ++k) {
     if ((*words)[k][0] == '-' || !std::filesystem::is_directory((*words)[k])) continue;
     int number = 0;
-    for (const std::string& seed : entry().seeds())
+    for (const std::string& seed : scintray::fuzz::all_seeds(entry()))
       std::ofstream(std::filesystem::path((*words)[k]) / ("seed-" + std::to_string(++number)),
                     std::ios::binary)
           << seed;

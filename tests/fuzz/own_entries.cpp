@@ -1,10 +1,16 @@
 #include "own_entries.hpp"
 
+#include <functional>
 #include <iterator>
+#include <string_view>
 
+#include "corpus.hpp"
 #include "require.hpp"
+#include "scintray/config/columns.hpp"
 #include "scintray/core/error.hpp"
+#include "scintray/core/h5.hpp"
 #include "scintray/core/journal.hpp"
+#include "scintray/optics/table.hpp"
 #include "scintray/results/results.hpp"
 #include "scintray/scene_file/read_scene.hpp"
 #include "scintray/simulation/memory_sink.hpp"
@@ -12,6 +18,7 @@
 #include "scintray/simulation/response.hpp"
 #include "scintray/simulation/results_file.hpp"
 #include "scintray/simulation/simulation.hpp"
+#include "scintray/tables/import_settings.hpp"
 #include "scratch_file.hpp"
 
 namespace scintray::fuzz {
@@ -71,9 +78,13 @@ pulses = true
 photon_order = [1, 3]
 )";
 
+const std::string kSweep = std::string(kPhotons) + "[[sweep]]\nkey = \"source.photons\"\nvalues = [60, 70]\n";
+
 std::vector<std::string> scene_seeds() {
-  return {std::string(kScene) + kPhotons, std::string(kScene) + kEvents,
-          std::string(kScene) + kPhotons + "[[sweep]]\nkey = \"source.photons\"\nvalues = [60, 70]\n"};
+  std::vector<std::string> seeds = scene_files();
+  for (const std::string& more : {std::string(kPhotons), std::string(kEvents), kSweep})
+    seeds.push_back(kScene + more);
+  return seeds;
 }
 
 std::string content_of(const std::filesystem::path& path) {
@@ -143,7 +154,8 @@ bool read_or_input_error(const Read& read) {
 
 bool run_scene(const std::uint8_t* data, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
-  return read_or_input_error([&] { scene_file::SceneFile::from_text(text, "fuzz"); });
+  return read_or_input_error(
+      [&] { scene_file::SceneFile::from_text(text, (scene_folder() / "fuzz.toml").string()); });
 }
 
 bool run_ranges(const std::uint8_t* data, std::size_t size) {
@@ -158,13 +170,27 @@ bool run_results(const std::uint8_t* data, std::size_t size) {
   const ScratchFile file(data, size, ".h5");
   std::size_t points = 0;
   const bool read = read_or_input_error([&] { points = results::read_results(file.path()).points.size(); });
-  read_or_input_error([&] { results::read_photon_layout(file.path()); });
-  read_or_input_error([&] { results::read_photons(file.path(), 0, 1000); });
-  read_or_input_error([&] { results::read_surfaces(file.path()); });
-  for (std::size_t point = 0; point < points; ++point)
-    read_or_input_error([&] { results::read_channels(file.path(), point); });
-  read_or_input_error([&] { results::read_photon_order(file.path()); });
-  read_or_input_error([&] { results::read_events(file.path(), 0, 1000); });
+  // One of the others, as each examines the whole file again.
+  switch (std::hash<std::string_view>()({reinterpret_cast<const char*>(data), size}) % 6) {
+    case 0:
+      read_or_input_error([&] { results::read_photon_layout(file.path()); });
+      break;
+    case 1:
+      read_or_input_error([&] { results::read_photons(file.path(), 0, 1000); });
+      break;
+    case 2:
+      read_or_input_error([&] { results::read_surfaces(file.path()); });
+      break;
+    case 3:
+      for (std::size_t point = 0; point < points; ++point)
+        read_or_input_error([&] { results::read_channels(file.path(), point); });
+      break;
+    case 4:
+      read_or_input_error([&] { results::read_photon_order(file.path()); });
+      break;
+    default:
+      read_or_input_error([&] { results::read_events(file.path(), 0, 1000); });
+  }
   return read;
 }
 
@@ -186,19 +212,56 @@ bool run_journal(const std::uint8_t* data, std::size_t size) {
   });
 }
 
+std::vector<std::string> table_seeds() {
+  const auto node = [](double degrees, double reflectance) {
+    optics::TableNode made;
+    made.incidence_rad = made.traced_incidence_rad = degrees * core::kDegree;
+    made.reflectance = reflectance;
+    made.reflected = tables::single_direction(degrees * core::kDegree, 0.0);
+    made.transmitted = tables::single_direction(0.5, 0.25);
+    return made;
+  };
+  const optics::SurfaceTable table({1.82, 1.0}, {node(0, 0.1), node(90, 1.0)}, {node(0, 0.1), node(90, 0.9)},
+                                   {});
+  return {written(".h5", [&](const std::filesystem::path& path) { optics::write_table(path, table); })};
+}
+
+bool run_table(const std::uint8_t* data, std::size_t size) {
+  const ScratchFile file(data, size, ".h5");
+  return read_or_input_error([&] { optics::read_table(file.path()); });
+}
+
+std::vector<std::string> column_seeds() {
+  return {written(".h5", [](const std::filesystem::path& path) {
+    core::h5::File file = core::h5::File::create(path);
+    core::h5::Group hits = file.root().create_group("hits");
+    for (const char* name : {"event", "x", "energy"}) hits.write(name, std::vector<double>(300, 1.5));
+    file.commit();
+  })};
+}
+
+bool run_columns(const std::uint8_t* data, std::size_t size) {
+  const ScratchFile file(data, size, ".h5");
+  return read_or_input_error([&] {
+    config::read_columns({file.path(), "hits", {}}, {"event", "x", "", "energy"});
+  });
+}
+
 bool run_response(const std::uint8_t* data, std::size_t size) {
   const ScratchFile file(data, size, ".h5");
   return read_or_input_error([&] { simulation::read_response(file.path()); });
 }
 
 /// Sums of tallies are stored sparsely: a few bytes are a tally of as many bins as may be.
-constexpr std::size_t kPerByte = 4096, kAlways = std::size_t{1} << 30;
+constexpr std::size_t kPerOwnByte = 4096, kOwnAlways = std::size_t{1} << 30;
 
-constexpr Entry kOwnEntries[] = {{"scene", run_scene, scene_seeds, kPerByte, kAlways},
-                                 {"ranges", run_ranges, range_seeds, kPerByte, kAlways},
-                                 {"results", run_results, results_seeds, kPerByte, kAlways},
-                                 {"response", run_response, response_seeds, kPerByte, kAlways},
-                                 {"journal", run_journal, journal_seeds, kPerByte, kAlways}};
+constexpr Entry kOwnEntries[] = {{"scene", run_scene, scene_seeds, kPerOwnByte, kOwnAlways},
+                                 {"ranges", run_ranges, range_seeds, kPerOwnByte, kOwnAlways},
+                                 {"results", run_results, results_seeds, kPerOwnByte, kOwnAlways},
+                                 {"response", run_response, response_seeds, kPerOwnByte, kOwnAlways},
+                                 {"table", run_table, table_seeds, kPerOwnByte, kOwnAlways},
+                                 {"columns_hdf5", run_columns, column_seeds, kPerOwnByte, kOwnAlways},
+                                 {"journal", run_journal, journal_seeds, kPerOwnByte, kOwnAlways}};
 
 }  // namespace
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Bytes as a file, for readers that take a path.
+/// Files and folders as long as they are needed, for readers that take a path.
 
 #include <unistd.h>
 
@@ -25,6 +25,26 @@ class ScratchFile {
   ~ScratchFile() {
     std::error_code ignored;
     std::filesystem::remove(path_, ignored);
+  }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// An empty folder, as long as it lives.
+class ScratchFolder {
+ public:
+  ScratchFolder()
+      : path_(std::filesystem::temp_directory_path() / ("scintray_fuzz_folder_" + std::to_string(getpid()))) {
+    std::filesystem::remove_all(path_);
+    std::filesystem::create_directories(path_);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  ~ScratchFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
   }
   const std::filesystem::path& path() const { return path_; }
 

@@ -11,38 +11,31 @@ namespace scintray::core {
 
 namespace {
 
-/// How much a substitution of one character by another costs: letters that differ in case only, and the
-/// characters that separate words in names, or a dopant from its host, are the same to a reader.
-std::size_t substitution_cost(std::string_view a, std::string_view b) {
-  const auto folded = [](std::string_view c) {
-    if (c == " " || c == "-" || c == "." || c == ":") return std::string("_");
-    return c.size() > 1 ? std::string(c)
-                        : std::string(1, static_cast<char>(std::tolower(static_cast<unsigned char>(c[0]))));
-  };
-  return folded(a) == folded(b) ? 0 : 1;
-}
-
-/// The characters of a text in UTF-8.
-std::vector<std::string_view> characters_of(std::string_view text) {
-  std::vector<std::string_view> characters;
-  for (std::size_t i = 0; i < text.size();) {
-    std::size_t end = i + 1;
-    while (end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) ++end;
-    characters.push_back(text.substr(i, end - i));
-    i = end;
+/// The characters of a text in UTF-8, as a reader compares names: letters without their case, and the
+/// characters that separate words, or a dopant from its host, as one.
+std::u32string folded(std::string_view text) {
+  std::u32string characters;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if ((byte & 0xC0U) == 0x80U && !characters.empty())
+      characters.back() = characters.back() << 8U | byte;
+    else if (c == ' ' || c == '-' || c == '.' || c == ':')
+      characters += U'_';
+    else
+      characters += byte < 0x80U ? static_cast<char32_t>(std::tolower(byte)) : char32_t{byte};
   }
   return characters;
 }
 
-std::size_t edit_distance(const std::string& one, const std::string& other) {
-  const std::vector<std::string_view> a = characters_of(one), b = characters_of(other);
+/// Insertions, removals and substitutions of a character that make one of the other.
+std::size_t edit_distance(const std::u32string& a, const std::u32string& b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
   for (std::size_t i = 1; i <= a.size(); ++i) {
     std::size_t diagonal = row[0];
     row[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t substitution = diagonal + substitution_cost(a[i - 1], b[j - 1]);
+      const std::size_t substitution = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
       diagonal = row[j];
       row[j] = std::min({row[j] + 1, row[j - 1] + 1, substitution});
     }
@@ -96,13 +89,16 @@ void Problems::throw_if_any() {
 }
 
 std::string nearest_word(const std::string& word, const std::vector<std::string>& candidates) {
-  const std::size_t length = characters_of(word).size(), limit = std::max<std::size_t>(2, length / 3);
+  const std::u32string wanted = folded(word);
+  const std::size_t length = wanted.size(), limit = std::max<std::size_t>(2, length / 3);
   std::string best;
   std::size_t best_distance = limit + 1;
   for (const std::string& candidate : candidates) {
-    const std::size_t distance = edit_distance(word, candidate);
+    const std::u32string known = folded(candidate);
+    if (known.size() > length + limit || known.size() + limit < length) continue;
+    const std::size_t distance = edit_distance(wanted, known);
     // All of a short word replaced is another word.
-    if (distance > limit || distance >= std::max(length, characters_of(candidate).size())) continue;
+    if (distance > limit || distance >= std::max(length, known.size())) continue;
     const bool nearer =
         distance < best_distance ||
         (distance == best_distance && common_beginning(word, candidate) > common_beginning(word, best));
@@ -113,9 +109,9 @@ std::string nearest_word(const std::string& word, const std::vector<std::string>
   // Of LYSO:Ce the name is LYSO, unless the whole is a name, as NaI:Tl is.
   const std::size_t colon = word.find(':');
   if (colon == std::string::npos || best_distance == 0) return best;
-  const auto host = std::find_if(candidates.begin(), candidates.end(), [&](const std::string& candidate) {
-    return edit_distance(word.substr(0, colon), candidate) == 0;
-  });
+  const std::u32string before = folded(std::string_view(word).substr(0, colon));
+  const auto host = std::find_if(candidates.begin(), candidates.end(),
+                                 [&](const std::string& candidate) { return folded(candidate) == before; });
   return host == candidates.end() ? best : *host;
 }
 

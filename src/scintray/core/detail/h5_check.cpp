@@ -220,6 +220,7 @@ constexpr const char* kSound = "sound";
 /// kSound, or what is wrong with a file. Runs in the child.
 std::string examine(const std::filesystem::path& path) {
   try {
+    if (has_endless_heap(path)) return "an object in its heap of texts has no length";
     const Quiet quiet;
     const Handle access = access_properties();
     const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.id()), H5Fclose);
