@@ -134,6 +134,12 @@ const mesh::TriMesh& Solids::mesh(const std::string& name, Node where) {
   mesh::TriMesh mesh;
   try {
     mesh = make(solid);
+    if (mesh.triangles.empty())
+      throw core::InputError(
+          {{},
+           "it has no volume within rounding",
+           "check its dimensions and their units: the largest may be millions of times the smallest, or "
+           "nothing is left of it"});
   } catch (const core::InputError& error) {
     std::vector<core::Problem> problems = error.problems();
     for (core::Problem& problem : problems) {
