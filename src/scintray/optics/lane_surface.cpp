@@ -1,5 +1,7 @@
 #include "scintray/optics/lane_surface.hpp"
 
+#include <algorithm>
+
 namespace scintray::optics {
 
 namespace {
@@ -7,6 +9,12 @@ namespace {
 bool for_lanes(const FacetSurface& facets) {
   return facets.lobe == 1.0 && facets.smear == 0.0 && facets.sigma_alpha_rad > 0.0 &&
          facets.definition == SigmaAlphaDefinition::solid_angle;
+}
+
+bool for_lanes(const SurfaceTable& table) {
+  return table.azimuths() == 1 && table.azimuth_kind() == AzimuthKind::folded &&
+         std::none_of(table.slices().begin(), table.slices().end(),
+                      [](const TableSlice& slice) { return slice.reciprocal != nullptr; });
 }
 
 bool for_lanes(const Reflector& reflector) {
@@ -26,6 +34,9 @@ std::optional<LaneSurface> lane_surface(const Surface& surface) {
   } else if (const auto* facets = surface.microsurface.get_if<FacetSurface>(); facets && for_lanes(*facets)) {
     lanes.micro = LaneSurface::Micro::facets;
     lanes.facets = facets;
+  } else if (const auto* table = surface.microsurface.get_if<SurfaceTable>(); table && for_lanes(*table)) {
+    lanes.micro = LaneSurface::Micro::table;
+    lanes.table = table;
   } else {
     return std::nullopt;
   }

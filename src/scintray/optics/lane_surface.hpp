@@ -5,14 +5,16 @@
 
 #include "scintray/optics/facets.hpp"
 #include "scintray/optics/surface.hpp"
+#include "scintray/optics/table.hpp"
 
 namespace scintray::optics {
 
 /// A surface of a microsurface and, behind it, the next medium or a reflector that transmits nothing.
 struct LaneSurface {
-  enum class Micro { smooth, facets, painted };
+  enum class Micro { smooth, facets, painted, table };
   Micro micro = Micro::smooth;
   const FacetSurface* facets = nullptr;  ///< of Micro::facets
+  const SurfaceTable* table = nullptr;   ///< of Micro::table
   const Reflector* reflector = nullptr;  ///< null: the next medium
 };
 

@@ -14,11 +14,6 @@ namespace scintray::optics {
 
 namespace {
 
-/// Sine of incidence below which the plane of incidence is drawn at random.
-constexpr double kNoPlane = 1e-9;
-
-constexpr double kLeastCosine = 1e-7;
-
 /// Largest total size of all copies of a table's samplers, unless a single copy is larger.
 constexpr std::size_t kMostCopiedBytes = 16'000'000;
 
@@ -187,15 +182,18 @@ double SurfaceTable::mean_slope(Side side, double incidence_rad, std::size_t sli
   return between_nodes(nodes(side, slice), incidence_rad, &TableNode::mean_slope_rad);
 }
 
+SurfaceTable::BetweenWavelengths SurfaceTable::between_wavelengths(double wavelength_nm) const {
+  if (wavelengths_nm_.size() == 1) return {};
+  const auto above = std::upper_bound(wavelengths_nm_.begin() + 1, wavelengths_nm_.end() - 1, wavelength_nm);
+  const double low = *(above - 1), high = *above;
+  return {static_cast<std::size_t>(above - wavelengths_nm_.begin()) - 1,
+          (wavelength_nm - low) / (high - low)};
+}
+
 std::size_t SurfaceTable::pick_slice(double lateral_azimuth, double wavelength_nm, core::Rng& rng) const {
-  std::size_t spectral = 0;
-  if (wavelengths_nm_.size() > 1) {
-    const auto above =
-        std::upper_bound(wavelengths_nm_.begin() + 1, wavelengths_nm_.end() - 1, wavelength_nm);
-    const double low = *(above - 1), high = *above;
-    spectral = static_cast<std::size_t>(above - wavelengths_nm_.begin()) - 1;
-    if (rng.uniform() < (wavelength_nm - low) / (high - low)) ++spectral;
-  }
+  const BetweenWavelengths between = between_wavelengths(wavelength_nm);
+  std::size_t spectral = between.first;
+  if (between.to_next && rng.uniform() < *between.to_next) ++spectral;
   std::size_t azimuth = 0;
   if (azimuths_ > 1) {
     const double turns = lateral_azimuth / core::kTwoPi;
@@ -207,13 +205,17 @@ std::size_t SurfaceTable::pick_slice(double lateral_azimuth, double wavelength_n
   return spectral * azimuths_ + azimuth;
 }
 
+const TableSampler& SurfaceTable::sampler(std::size_t slice, Side side) const {
+  return samplers_[thread_slot() % samplers_.size()][2 * slice + static_cast<std::size_t>(side)];
+}
+
 SurfaceOutcome SurfaceTable::interact(Ray& ray, Side side, const core::Vec3& normal, const core::Vec3& along,
                                       double wavelength_nm, core::Rng& rng) const {
   const double cosine = ray.direction.dot(normal);
   const core::Vec3 lateral = ray.direction - cosine * normal;
   const double sine = lateral.norm();
   const core::Vec3 forward =
-      sine > kNoPlane ? core::Vec3(lateral / sine) : core::sample_polarisation(normal, rng);
+      sine > kNoIncidencePlane ? core::Vec3(lateral / sine) : core::sample_polarisation(normal, rng);
   const core::Vec3 across = normal.cross(forward);
 
   std::size_t slice = 0;
@@ -234,13 +236,12 @@ SurfaceOutcome SurfaceTable::interact(Ray& ray, Side side, const core::Vec3& nor
   };
   if (const ReciprocalKernel* kernel = slices_[slice].reciprocal.get()) {
     const ReciprocalKernel::Sample exit = kernel->sample(side, std::min(1.0, sine * sine), rng);
-    const double cos2 = std::max(1.0 - exit.sine2, kLeastCosine * kLeastCosine);
+    const double cos2 = std::max(1.0 - exit.sine2, kLeastExitCosine * kLeastExitCosine);
     const core::SineCosine turn = core::sincos(exit.turn);
     return leave(exit.side, std::sqrt(1.0 - cos2), std::sqrt(cos2),
                  (rng.bits() & 1) != 0 ? turn.sine : -turn.sine, turn.cosine);
   }
-  const Samplers& samplers = samplers_[thread_slot() % samplers_.size()];
-  const TableSampler& sampler = samplers[2 * slice + static_cast<std::size_t>(side)];
+  const TableSampler& sampler = this->sampler(slice, side);
   const TableSampler::Place at = sampler.place(sine, std::abs(cosine));
   const double reflectance = at.reflectance();
   const double u = rng.uniform();
@@ -252,7 +253,7 @@ SurfaceOutcome SurfaceTable::interact(Ray& ray, Side side, const core::Vec3& nor
 
   core::SineCosine polar = core::sincos(exit.polar);
   // A direction exactly in the surface would be on neither side.
-  if (polar.cosine < kLeastCosine) polar = {1.0, kLeastCosine};
+  if (polar.cosine < kLeastExitCosine) polar = {1.0, kLeastExitCosine};
   const core::SineCosine azimuth = core::sincos(exit.azimuth);
   return leave(reflected ? side : other(side), polar.sine, polar.cosine, azimuth.sine, azimuth.cosine);
 }

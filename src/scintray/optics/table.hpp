@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -97,6 +98,15 @@ class SurfaceTable : public MicrosurfaceModel {
   bool opaque() const override { return opaque_; }  ///< no light from inside is transmitted
   /// True when every slice has a reciprocal kernel. Others are reciprocal only within their noise.
   bool reciprocal() const override;
+
+  /// Slices at a wavelength: the lower one and, where there are several, the probability of the next.
+  struct BetweenWavelengths {
+    std::size_t first = 0;
+    std::optional<double> to_next{};
+  };
+  BetweenWavelengths between_wavelengths(double wavelength_nm) const;
+  /// Of a slice, for incidence from a side: the copy for the calling thread.
+  const TableSampler& sampler(std::size_t slice, Side side) const;
 
  private:
   /// Wavelengths and azimuths of the slices; throws InputError when they do not form a grid.

@@ -5,10 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-namespace scintray::optics {
+#include "scintray/optics/table_bins.hpp"
 
-inline constexpr int kPolarBins = 64;
-inline constexpr int kAzimuthBins = 32;
+namespace scintray::optics {
 
 /// Cumulative probability at polar edge k in [0, kPolarBins]. Bins hold equal steps of s with P = 2 s^2 below
 /// the median and, mirrored, 1 - 2 (1 - s)^2 above. Steps are fine in both tails, and a density that vanishes

@@ -9,15 +9,10 @@ namespace scintray::optics {
 
 namespace {
 
-/// Number of steps of the incidence lookup: finer than the nodes, so that at most one or two steps remain.
-constexpr std::uint32_t kLookupSteps = 2048;
-
 constexpr std::size_t kRowEnds = kAzimuthBins + 1;
 
-/// A measure of the incidence angle between 0 and 1, increasing with it, that needs no arc function.
-double slant(double sine, double cosine) { return sine / (sine + cosine); }
-double slant_of(const TableNode& node) {
-  return slant(std::sin(node.incidence_rad), std::cos(node.incidence_rad));
+double slant_of_node(const TableNode& node) {
+  return slant_of<double>(std::sin(node.incidence_rad), std::cos(node.incidence_rad));
 }
 double angle_of_slant(double value) { return std::atan2(value, 1.0 - value); }
 
@@ -40,10 +35,10 @@ TableSampler::TableSampler(const std::vector<TableNode>& nodes, AzimuthKind kind
       directions_{pack(nodes, &TableNode::transmitted), pack(nodes, &TableNode::reflected)} {
   for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
     const TableNode &low = nodes[k], &high = nodes[k + 1];
-    const double start = slant_of(low), end = slant_of(high);
+    const double start = slant_of_node(low), end = slant_of_node(high);
     const double middle =
         (angle_of_slant(0.5 * (start + end)) - low.incidence_rad) / (high.incidence_rad - low.incidence_rad);
-    Interval interval;
+    TableInterval interval;
     interval.start = start;
     interval.per_length = 1.0 / (end - start);
     interval.bend = 4.0 * (middle - 0.5);
@@ -61,8 +56,8 @@ TableSampler::TableSampler(const std::vector<TableNode>& nodes, AzimuthKind kind
     intervals_.push_back(interval);
   }
   std::uint32_t interval = 0;
-  for (std::uint32_t step = 0; step <= kLookupSteps; ++step) {
-    while (interval + 1 < intervals_.size() && intervals_[interval + 1].start * kLookupSteps <= step)
+  for (std::uint32_t step = 0; step <= kTableLookupSteps; ++step) {
+    while (interval + 1 < intervals_.size() && intervals_[interval + 1].start * kTableLookupSteps <= step)
       ++interval;
     lookup_.push_back(interval);
   }
@@ -91,52 +86,43 @@ TableSampler::Directions TableSampler::pack(const std::vector<TableNode>& nodes,
 
 std::size_t TableSampler::bytes() const {
   std::size_t bytes =
-      sizeof *this + intervals_.size() * sizeof(Interval) + lookup_.size() * sizeof(lookup_[0]);
+      sizeof *this + intervals_.size() * sizeof(TableInterval) + lookup_.size() * sizeof(lookup_[0]);
   for (const Directions& way : directions_)
     bytes += way.polar.size() * sizeof(way.polar[0]) + way.azimuth.size() * sizeof(way.azimuth[0]);
   return bytes;
 }
 
+TableView TableSampler::view() const {
+  const AzimuthCode code(kind_);
+  TableView view{intervals_.data(),
+                 lookup_.data(),
+                 static_cast<std::uint32_t>(intervals_.size()),
+                 static_cast<std::uint32_t>(nodes_),
+                 code.zero,
+                 code.step,
+                 kind_ == AzimuthKind::folded};
+  for (std::size_t way = 0; way < 2; ++way) {
+    view.polar[way] = directions_[way].polar.data();
+    view.azimuth[way] = directions_[way].azimuth.data();
+  }
+  return view;
+}
+
 TableSampler::Place TableSampler::place(double sine, double cosine) const {
-  const double value = slant(sine, cosine);
-  std::uint32_t k = lookup_[std::min(static_cast<std::uint32_t>(value * kLookupSteps), kLookupSteps)];
-  while (k + 1 < intervals_.size() && value >= intervals_[k + 1].start) ++k;
-  const Interval& interval = intervals_[k];
-  const double x = std::clamp((value - interval.start) * interval.per_length, 0.0, 1.0);
-  return {&interval, x + interval.bend * x * (1.0 - x)};
+  const double slant = slant_of(sine, cosine);
+  const TableInterval& interval = interval_at(view(), slant);
+  return {&interval, share_of(slant, interval.start, interval.per_length, interval.bend)};
 }
 
 ExitAngles TableSampler::sample(const Place& place, bool reflected, core::Rng& rng) const {
-  const auto two_tails = [](double u) {
-    return u < 0.5 ? std::sqrt(0.5 * u) : 1.0 - std::sqrt(0.5 * (1.0 - u));
-  };
-  const bool folded = kind_ == AzimuthKind::folded;
-  const double s = two_tails(rng.uniform());
+  const double polar_level = level_of_two_tails(rng.uniform());
   const std::uint64_t bits = rng.bits();
-  const double u = static_cast<double>(bits >> 11) * 0x1.0p-53;
-  const double t = folded ? 1.0 - std::sqrt(1.0 - u) : two_tails(u);
-  const int polar_bin = std::min(static_cast<int>(s * kPolarBins), kPolarBins - 1);
-  const int azimuth_bin = std::min(static_cast<int>(t * kAzimuthBins), kAzimuthBins - 1);
-  const auto polar_part = static_cast<float>(s * kPolarBins - polar_bin);
-  const auto azimuth_part = static_cast<float>(t * kAzimuthBins - azimuth_bin);
-  const auto share = static_cast<float>(place.share_);
-
-  const std::size_t way = reflected ? 1 : 0;
-  const Directions& directions = directions_[way];
-  const auto node = static_cast<std::size_t>(place.interval_ - intervals_.data());
-  const auto row = static_cast<std::size_t>(polar_bin) * nodes_ + node;
-  const AzimuthCode code(kind_);
-  const auto angles = [&](std::size_t at) -> ExitAngles {
-    const float* polar = directions.polar.data() + at;
-    const std::uint16_t* azimuth =
-        directions.azimuth.data() + at * kRowEnds + static_cast<std::size_t>(azimuth_bin);
-    const auto low = static_cast<float>(azimuth[0]), high = static_cast<float>(azimuth[1]);
-    return {polar[0] + polar_part * (polar[nodes_] - polar[0]), low + azimuth_part * (high - low)};
-  };
-  const ExitAngles a = angles(row + place.interval_->low[way]), b = angles(row + place.interval_->high[way]);
-  const float azimuth = code.step * (a.azimuth + share * (b.azimuth - a.azimuth) - code.zero);
+  const double u = core::uniform_of<double>(bits);
+  const bool folded = kind_ == AzimuthKind::folded;
+  const TableExit exit = table_exit(view(), *place.interval_, place.share_, reflected ? 1 : 0, polar_level,
+                                    folded ? level_of_one_tail(u) : level_of_two_tails(u));
   // A bit that u does not use: either side of the plane of incidence.
-  return {a.polar + share * (b.polar - a.polar), folded && (bits & 1) != 0 ? -azimuth : azimuth};
+  return {exit.polar, folded && (bits & 1) != 0 ? -exit.azimuth : exit.azimuth};
 }
 
 }  // namespace scintray::optics

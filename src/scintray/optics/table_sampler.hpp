@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scintray/core/philox.hpp"
+#include "scintray/optics/table_laws.hpp"
 #include "scintray/optics/table_nodes.hpp"
 
 namespace scintray::optics {
@@ -17,22 +18,6 @@ namespace scintray::optics {
 /// over 65535; angles of 2000 rays are known to about 1e-3 rad). A table of 41 nodes takes 0.2 MB for each
 /// side on which light leaves, which fits the private cache of a core.
 class TableSampler {
- private:
-  /// The interval between two nodes. Positions are in a measure of the incidence angle that needs no arc
-  /// function, sin / (sin + cos), and `bend` corrects the relative position in this measure to that in angle:
-  /// by bend x (1 - x). For nodes 2.25 deg apart the error is 5e-5 of the interval.
-  struct alignas(64) Interval {
-    double start = 0.0;  ///< of the lower node
-    double per_length = 0.0;
-    double bend = 0.0;
-    double reflectance = 0.0, reflectance_step = 0.0;
-    double absorptance = 0.0, absorptance_step = 0.0;
-    /// Nodes whose directions are used, counted from the lower: a node without light on that side has no
-    /// distribution. Reflected, transmitted.
-    std::array<std::uint8_t, 2> low{0, 0}, high{1, 1};
-    bool transmits = false;  ///< transmittance above 0 at one of its nodes
-  };
-
  public:
   /// @param nodes as checked by SurfaceTable
   TableSampler(const std::vector<TableNode>& nodes, AzimuthKind kind);
@@ -46,13 +31,15 @@ class TableSampler {
 
    private:
     friend class TableSampler;
-    Place(const Interval* interval, double share) : interval_(interval), share_(share) {}
-    const Interval* interval_;
+    Place(const TableInterval* interval, double share) : interval_(interval), share_(share) {}
+    const TableInterval* interval_;
     double share_;  ///< relative position towards the next node, in [0, 1]
   };
   Place place(double sine, double cosine) const;
 
   std::size_t bytes() const;  ///< memory
+  /// Its numbers, for lanes; valid as long as this is.
+  TableView view() const;
 
   /// Direction of exit: polar angle, and azimuth from the plane of incidence, on either side of it.
   ExitAngles sample(const Place& place, bool reflected, core::Rng& rng) const;
@@ -67,7 +54,7 @@ class TableSampler {
 
   AzimuthKind kind_;
   std::size_t nodes_;
-  std::vector<Interval> intervals_;
+  std::vector<TableInterval> intervals_;
   std::vector<std::uint32_t> lookup_;     ///< first candidate interval for equal steps of the measure
   std::array<Directions, 2> directions_;  ///< transmitted, reflected
 };

@@ -19,13 +19,14 @@ inline LinkSurface first_surface(const Interface& interface, bool from_back) {
 }
 
 /// The surface at a boundary triangle's interface; nothing where photons are scattered one by one: dry
-/// contacts, reflectors from behind, surfaces that are not for lanes, and all where phases are kept.
+/// contacts, reflectors and tables from behind, surfaces that are not for lanes, and all where phases are
+/// kept.
 inline std::optional<optics::LaneSurface> lane_surface_at(const Scene& scene, const BoundaryLink& link) {
   const Interface& interface = scene.interfaces[link.interface];
   if (scene.keeps_phases || interface.gap_medium.has_value()) return std::nullopt;
   const LinkSurface at = first_surface(interface, link.from_back);
   std::optional<optics::LaneSurface> surface = optics::lane_surface(scene.surfaces[at.id]);
-  if (surface && surface->reflector && !at.own) return std::nullopt;
+  if (surface && (surface->reflector || surface->table) && !at.own) return std::nullopt;
   return surface;
 }
 

@@ -1,5 +1,6 @@
 #include "scintray/transport/detail/surface_lanes.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "scintray/optics/facet_laws.hpp"
@@ -18,6 +19,8 @@ double state_of(Micro micro) {
       return lane_state::kSmooth;
     case Micro::facets:
       return lane_state::kFacets;
+    case Micro::table:
+      return lane_state::kTable;
     case Micro::painted:
       break;
   }
@@ -32,6 +35,19 @@ void set_facets(const optics::FacetSurface& facets, LaneFace& face) {
   face.sin_widest = limits.of_widest.sine;
   face.cos_widest = limits.of_widest.cosine;
   face.by_area = limits.by_area ? 1.0 : 0.0;
+}
+
+LaneTable lane_table(const optics::SurfaceTable& table, double wavelength_nm) {
+  LaneTable lanes;
+  const optics::SurfaceTable::BetweenWavelengths between = table.between_wavelengths(wavelength_nm);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const std::size_t slice = between.first + (between.to_next ? k : 0);
+    lanes.view[k][0] = table.sampler(slice, optics::Side::inside).view();
+    lanes.view[k][1] = table.sampler(slice, optics::Side::outside).view();
+  }
+  lanes.to_next = between.to_next ? std::max(0.0, *between.to_next) : -1.0;
+  lanes.absorbs = table.absorbs();
+  return lanes;
 }
 
 }  // namespace
@@ -74,13 +90,16 @@ void LaneScene::make_faces(const source::Photon& photon, const Planes& planes, F
   faces.region = photon.region;
   faces.wavelength_nm = photon.wavelength_nm;
   faces.faces.clear();
+  faces.tables.clear();
+  faces.tables.reserve(planes.triangles.size());  // faces point to them
   for (std::size_t plane = 0; plane < planes.triangles.size(); ++plane) {
-    faces.faces.push_back(face(photon, planes.triangles[plane]));
+    faces.faces.push_back(face(photon, planes.triangles[plane], faces.tables));
     if (planes.mixed[plane]) faces.faces.back().kind = lane_state::kUnclear;
   }
 }
 
-LaneFace LaneScene::face(const source::Photon& photon, std::uint32_t triangle) const {
+LaneFace LaneScene::face(const source::Photon& photon, std::uint32_t triangle,
+                         std::vector<LaneTable>& tables) const {
   const scene::Region& region = scene_.regions[photon.region];
   const scene::BoundaryLink& link = scene_.link(region, triangle);
   const scene::Interface& interface = scene_.interfaces[link.interface];
@@ -99,6 +118,10 @@ LaneFace LaneScene::face(const source::Photon& photon, std::uint32_t triangle) c
   if (interface.plain) face.least_sin2 = critical_sin2(scene_, link.smooth_to, photon);
   const scene::LinkSurface first = scene::first_surface(interface, link.from_back);
   if (surface->facets) set_facets(*surface->facets, face);
+  if (surface->table) {
+    tables.push_back(lane_table(*surface->table, photon.wavelength_nm));
+    face.table = &tables.back();
+  }
   if (!surface->reflector) return face;
   const optics::Surface& stack = scene_.surfaces[first.id];
   face.index_behind = surface->micro == Micro::painted ? here : stack.gap_index(photon.wavelength_nm);

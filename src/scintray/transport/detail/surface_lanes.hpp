@@ -41,12 +41,13 @@ class LaneScene {
   struct Faces {
     core::RegionId region;
     double wavelength_nm = 0.0;
-    std::vector<LaneFace> faces;  ///< two per PlanePair; empty: not made
+    std::vector<LaneFace> faces;    ///< two per PlanePair; empty: not made
+    std::vector<LaneTable> tables;  ///< of the faces
   };
 
   const Planes& planes_of(const scene::Region& region);
   void make_faces(const source::Photon& photon, const Planes& planes, Faces& faces) const;
-  LaneFace face(const source::Photon& photon, std::uint32_t triangle) const;
+  LaneFace face(const source::Photon& photon, std::uint32_t triangle, std::vector<LaneTable>& tables) const;
 
   const scene::Scene& scene_;
   std::vector<std::unique_ptr<Planes>> planes_;  ///< by accelerator

@@ -88,6 +88,7 @@ class LanePasses : LanePhotons<Real, kDraws> {
     const auto in = [&now](double state) { return now.state == Real(state); };
     const Mask smooth = in(lane_state::kSmooth), facets = in(lane_state::kFacets);
     if (any(smooth | facets)) pass_microsurface(now, smooth, facets);
+    if (const Mask here = in(lane_state::kTable); any(here)) interact_with_table(now, here);
     if (const Mask here = in(lane_state::kReflector); any(here)) reflect_at_reflector(now, here);
     if (const Mask here = in(lane_state::kPolarise); any(here)) polarise(now, here);
     if (const Mask here = in(lane_state::kReflected); any(here)) {
@@ -257,6 +258,120 @@ class LanePasses : LanePhotons<Real, kDraws> {
     polarisation = select(unpolarised | (straight & transmitted), light.polarisation, polarisation);
     polarisation = select(total | (straight & !transmitted), mirrored.polarisation, polarisation);
     return {{direction, polarisation}, transmitted, !total};
+  }
+
+  /// What is looked up in tables, for each photon.
+  struct LookedUp {
+    const optics::TableView* view[kWidth];
+    const optics::TableInterval* interval[kWidth];
+    alignas(64) double several[kWidth];  ///< 1: one of two slices was drawn
+    alignas(64) double absorbs[kWidth], transmits[kWidth];
+  };
+  /// @param first  random number that selects between slices
+  LookedUp look_up(const Now& now, const Mask& here, const Real& slants, const Real& first) const {
+    static constexpr optics::TableInterval kNone{};
+    LookedUp found;
+    alignas(64) double slant[kWidth], uniform[kWidth], side[kWidth];
+    slants.store(slant), first.store(uniform), now.side.store(side);
+    const unsigned lanes = lanes_of(here);
+    for (std::size_t lane = 0; lane < kWidth; ++lane) {
+      found.interval[lane] = &kNone;
+      found.several[lane] = found.absorbs[lane] = found.transmits[lane] = 0.0;
+      if ((lanes >> lane & 1) == 0) continue;
+      const LaneTable& table = *reinterpret_cast<const LaneFace*>(now.face[lane])->table;
+      found.view[lane] = &table.view[uniform[lane] < table.to_next ? 1 : 0][side[lane] > 0.0 ? 0 : 1];
+      found.interval[lane] = &optics::interval_at(*found.view[lane], slant[lane]);
+      found.several[lane] = table.to_next >= 0.0 ? 1.0 : 0.0;
+      found.absorbs[lane] = table.absorbs ? 1.0 : 0.0;
+      found.transmits[lane] = found.interval[lane]->transmits ? 1.0 : 0.0;
+    }
+    return found;
+  }
+
+  /// Directions of exit, each looked up at its levels.
+  struct Exits {
+    Real polar, azimuth;
+  };
+  static Exits exits_of(const LookedUp& found, const Mask& leaves, const Mask& reflected, const Real& shares,
+                        const Real& polar_levels, const Real& azimuth_levels) {
+    alignas(64) double share[kWidth], polar[kWidth], azimuth[kWidth];
+    shares.store(share), polar_levels.store(polar), azimuth_levels.store(azimuth);
+    const unsigned lanes = lanes_of(leaves), ways = lanes_of(reflected);
+    for (std::size_t lane = 0; lane < kWidth; ++lane) {
+      if ((lanes >> lane & 1) == 0) continue;
+      const optics::TableExit exit =
+          optics::table_exit(*found.view[lane], *found.interval[lane], share[lane],
+                             static_cast<int>(ways >> lane & 1), polar[lane], azimuth[lane]);
+      polar[lane] = static_cast<double>(exit.polar);
+      azimuth[lane] = static_cast<double>(exit.azimuth);
+    }
+    return {Real::load(polar), Real::load(azimuth)};
+  }
+
+  /// As optics::SurfaceTable::interact, of a table with folded azimuths.
+  void interact_with_table(Now& now, const Mask& here) {
+    const Real zero(0.0), one(1.0);
+    const Real cosine = dot(now.light.direction, now.normal);
+    const Vector lateral = now.light.direction - cosine * now.normal;
+    const Real sine = root(dot(lateral, lateral));
+    Vector forward{lateral.x / sine, lateral.y / sine, lateral.z / sine};
+    Mask ready = here;
+    const Mask no_plane = here & (sine <= Real(optics::kNoIncidencePlane));
+    if (any(no_plane)) {
+      draw(no_plane, 1.0);
+      const core::CirclePoint<Real> point(next_number());
+      count_drawn(one_if(no_plane));
+      forward = select(no_plane, core::across_at<Real>(now.normal, point), forward);
+      ready = here & !(no_plane & !point.accepted);
+    }
+    draw(ready, 4.0);
+    const Random random = next_numbers();
+    const Real slant = optics::slant_of<Real>(sine, magnitude(cosine));
+    const LookedUp found = look_up(now, ready, slant, random.uniform(0));
+    const double* numbers[kWidth];
+    LaneFours<Real> first, second;
+    for (std::size_t lane = 0; lane < kWidth; ++lane) numbers[lane] = &found.interval[lane]->start;
+    load_fours(numbers, first);
+    for (std::size_t lane = 0; lane < kWidth; ++lane) numbers[lane] = &found.interval[lane]->reflectance_step;
+    load_fours(numbers, second);
+    const Real share = optics::share_of<Real>(slant, first.of[0], first.of[1], first.of[2]);
+    const Real reflectance = first.of[3] + share * second.of[0];
+    const Real absorptance = second.of[1] + share * second.of[2];
+
+    const Mask several = Real::load(found.several) > zero;
+    const Real u = core::uniform_of<Real>(choose(several, random.bits[1], random.bits[0]));
+    const Mask reflected = u < reflectance;
+    const Mask absorbed = ready & (Real::load(found.absorbs) > zero) & !reflected &
+                          ((!(Real::load(found.transmits) > zero)) | (u < reflectance + absorptance));
+    const Mask leaves = ready & !absorbed;
+    const Bits azimuth_bits = choose(several, random.bits[3], random.bits[2]);
+    const Exits exits = exits_of(found, leaves, reflected, share,
+                                 optics::level_of_two_tails<Real>(
+                                     core::uniform_of<Real>(choose(several, random.bits[2], random.bits[1]))),
+                                 optics::level_of_one_tail<Real>(core::uniform_of<Real>(azimuth_bits)));
+    const core::SineCosineOf<Real> polar = core::laws::sincos<Real>(exits.polar);
+    const Mask grazing = polar.cosine < Real(optics::kLeastExitCosine);
+    const Real sin_polar = select(grazing, one, polar.sine);
+    const Real cos_polar = select(grazing, Real(optics::kLeastExitCosine), polar.cosine);
+    // A bit that u does not use: either side of the plane of incidence.
+    const core::SineCosineOf<Real> azimuth =
+        core::laws::sincos<Real>(number_of(bits_of(exits.azimuth) ^ (azimuth_bits << 63)));
+
+    const Real after = select(reflected, now.side, -now.side);
+    const Vector across = cross(now.normal, forward);
+    const Vector direction =
+        sin_polar * (azimuth.cosine * forward + azimuth.sine * across) + (-after * cos_polar) * now.normal;
+    const Mask unpolarised = is_zero(now.light.polarisation);
+    now.light.direction = select(leaves, direction, now.light.direction);
+    now.side = select(leaves, after, now.side);
+    const Real through =
+        select(now.reflector > zero, Real(lane_state::kReflector), Real(lane_state::kCrossed));
+    const Real next = select(after > zero, Real(lane_state::kReflected), through);
+    store(pool_.next, select(leaves, next, load(pool_.next)));
+    now.state = select(leaves, select(unpolarised, next, Real(lane_state::kPolarise)), now.state);
+    now.state = select(absorbed, Real(lane_state::kAbsorbed), now.state);
+    const Real drawn = select(absorbed, one, Real(3.0)) + select(several, one, zero);
+    count_drawn(select(ready, drawn, zero));
   }
 
   /// As optics::interact_at_reflector, of an opaque sheet that reflects by Lambert's law and specularly.

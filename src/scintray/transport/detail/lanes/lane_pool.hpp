@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "scintray/optics/table_laws.hpp"
 #include "scintray/transport/detail/lanes/lane_kernel.hpp"
 
 namespace scintray::transport {
@@ -19,6 +20,7 @@ inline constexpr double kEmpty = 0.0;
 inline constexpr double kPropagate = 1.0;  ///< along its direction to the next plane
 inline constexpr double kSmooth = 2.0;     ///< Fresnel's equations at the mean normal
 inline constexpr double kFacets = 3.0;     ///< a facet is drawn, then Fresnel's equations
+inline constexpr double kTable = 4.0;      ///< a surface table
 inline constexpr double kReflector = 5.0;  ///< the reflector behind the microsurface
 inline constexpr double kPolarise = 6.0;   ///< a polarisation is drawn; LanePool::next follows
 inline constexpr double kReflected = 7.0;  ///< back in its region
@@ -42,10 +44,18 @@ struct PlanePair {
 };
 static_assert(sizeof(PlanePair) == 64);
 
+/// A surface table at one wavelength.
+struct LaneTable {
+  optics::TableView view[2]
+                        [2];  ///< of a slice and the next, for light from the photon's region and from beyond
+  double to_next = -1.0;  ///< probability of the next slice; negative: there is one slice, and none is drawn
+  bool absorbs = false;
+};
+
 /// A plane around a region, with the surface there, for one wavelength. Four numbers are loaded at once.
 struct LaneFace {
   double normal[3];  ///< of unit length, out of the region
-  double kind;       ///< kSmooth, kFacets, kReflector; kBoundary, kUnclear: for the scalar code
+  double kind;       ///< kSmooth, kFacets, kTable, kReflector; kBoundary, kUnclear: for the scalar code
 
   double index_behind;  ///< of what the microsurface borders on
   double least_sin2;    ///< of a plain surface: sine squared from which light is totally reflected
@@ -59,7 +69,7 @@ struct LaneFace {
   double by_area;         ///< 1: facets are weighted by projected area
   double reflectance;     ///< of the reflector
   double specular_share;  ///< of the reflector
-  double padding = 0.0;
+  const LaneTable* table = nullptr;
 };
 static_assert(sizeof(LaneFace) == 128);
 
