@@ -1,11 +1,13 @@
 #include <cstring>
 
+#include "io/tabulated.hpp"
 #include "physics/traced.hpp"
 #include "scintray/core/philox_laws.hpp"
 #include "scintray/core/sampling.hpp"
 #include "scintray/core/sampling_laws.hpp"
 #include "scintray/transport/batch.hpp"
 #include "scintray/transport/lane_width.hpp"
+#include "support/shared.hpp"
 
 using namespace scintray;
 using namespace scintray::core;
@@ -138,6 +140,43 @@ wavelength = "emission"
 photons = 3_000
 )";
 
+const char* const kTableBacked = R"([surfaces.backed]
+base = "lso_ground_30um_420nm"
+gap = "air"
+reflector = "ESR"
+)";
+
+/// A table between two wavelengths, in a scene of crystal().
+std::string two_wavelengths() {
+  static const auto file = [] {
+    const optics::SurfaceTable rough = tabulated(18.0 * kDegree), smoother = tabulated(8.0 * kDegree);
+    const auto slice = [](const optics::SurfaceTable& of, double wavelength_nm) {
+      return optics::TableSlice{wavelength_nm,
+                                0.0,
+                                of.index_pair(),
+                                of.nodes(optics::Side::inside),
+                                of.nodes(optics::Side::outside),
+                                nullptr};
+    };
+    const auto path = scratch_folder("lanes_table") / "two.h5";
+    optics::write_table(path, optics::SurfaceTable({slice(rough, 400.0), slice(smoother, 450.0)},
+                                                   optics::AzimuthKind::folded, {}));
+    return path;
+  }();
+  return crystal("two", "[surfaces.two]\nmodel = \"table\"\ntable = { file = \"" + file.string() + "\" }\n");
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, from.size(), to);
+}
+
+/// Light along the normal of two faces with a table, where there is no plane of incidence.
+std::string along_the_normal(const std::string& surface, const std::string& more) {
+  return replaced(crystal(surface, more), "photons = 3_000\n", "photons = 3_000\ndirection = [1, 0, 0]\n");
+}
+
 /// Bare crystals that share their light, and one that is turned.
 std::string array(const std::string& source, const std::string& surface = "polished") {
   return R"(
@@ -189,6 +228,18 @@ TEST_CASE("Results and photons are the same to the last bit for every width of t
     scene = crystal("backed", std::string(kBacked) + "[run]\nmax_time = \"0.3 ns\"\n");
   }
   SUBCASE("table") { scene = crystal("lso_ground_30um_420nm"); }
+  SUBCASE("table, unpolarised") {
+    scene = crystal("lso_ground_30um_420nm", "polarisation = \"unpolarised\"\n");
+  }
+  SUBCASE("table, a gap and a reflector") { scene = crystal("backed", kTableBacked); }
+  SUBCASE("table of a stack, which absorbs") { scene = crystal("lso_ground_30um_esr_air_420nm"); }
+  SUBCASE("table of two wavelengths") {
+    scene = replaced(two_wavelengths(), "wavelength = \"420 nm\"", "wavelength = \"430 nm\"");
+  }
+  SUBCASE("table of two wavelengths, beyond the last") {
+    scene = replaced(two_wavelengths(), "wavelength = \"420 nm\"", "wavelength = \"470 nm\"");
+  }
+  SUBCASE("table, along its normal") { scene = along_the_normal("backed", kTableBacked); }
   SUBCASE("through Embree") { scene = crystal("polished", "[run]\naccelerator = \"embree\"\n"); }
   SUBCASE("cut by interactions") { scene = crystal("polished", "[run]\nmax_interactions = 20\n"); }
   SUBCASE("cut by time") { scene = crystal("polished", "[run]\nmax_time = \"0.3 ns\"\n"); }
@@ -216,12 +267,14 @@ vacuum = ["sipm[*]"]
   }
 }
 
-TEST_CASE("Photons stay in lanes at facets and reflectors, and each is replayed alone") {
+TEST_CASE("Photons stay in lanes at facets, tables and reflectors, and each is replayed alone") {
   std::string scene;
   SUBCASE("facets") { scene = crystal("rough", by_area("18 deg")); }
   SUBCASE("facets, a gap and a reflector") { scene = crystal("backed", kBacked); }
   SUBCASE("paint, in part specular") { scene = crystal("paint", kPaint); }
   SUBCASE("polished, a gap and a Lambertian reflector") { scene = crystal("polished_lambertian_097"); }
+  SUBCASE("table, a gap and a reflector") { scene = crystal("backed", kTableBacked); }
+  SUBCASE("table of two wavelengths") { scene = two_wavelengths(); }
   const auto point = ready(scene_spec(scene));
   for (const int width : transport::lane_widths()) {
     CAPTURE(width);
