@@ -1,6 +1,8 @@
 #pragma once
 /// Surfaces of a built scene at which photons can be scattered in lanes.
 
+#include <algorithm>
+
 #include "scintray/optics/lane_surface.hpp"
 #include "scintray/scene/accelerator.hpp"
 #include "scintray/scene/scene.hpp"
@@ -33,8 +35,20 @@ inline std::optional<optics::LaneSurface> lane_surface_at(const Scene& scene, co
 /// Shares of the area of a region's boundary.
 struct LaneShares {
   double smooth = 0.0;  ///< smooth, to another medium
-  double known = 0.0;   ///< with a lane_surface_at()
+  double total =
+      0.0;  ///< smooth, each times the share of diffuse light in the region that is totally reflected there
+  double known = 0.0;  ///< with a lane_surface_at()
 };
+
+/// Share of the light of a cosine law that is totally reflected at a smooth boundary: 1 - (n2 / n1)^2, in the
+/// middle of the wavelengths in use.
+inline double totally_reflected(const SceneOptics& optics, core::MediumId here, core::MediumId behind) {
+  if (optics.is_opaque(here) || optics.is_opaque(behind)) return 0.0;
+  const double middle_nm = optics.media[here].middle_nm();
+  const double ratio = optics.index(behind, middle_nm) / optics.index(here, middle_nm);
+  return std::max(0.0, 1.0 - ratio * ratio);
+}
+
 inline LaneShares lane_shares(const Scene& scene, const Region& region) {
   const Accelerator& accelerator = scene.accelerator(region);
   const BoundaryLink* const links = scene.links_of(region);
@@ -44,10 +58,13 @@ inline LaneShares lane_shares(const Scene& scene, const Region& region) {
     const BoundaryTriangle t = accelerator.triangle(i);
     const double area = (t[1] - t[0]).cross(t[2] - t[0]).norm();
     all += area;
-    if (links[i].smooth_to.has_value()) of.smooth += area;
+    if (links[i].smooth_to.has_value()) {
+      of.smooth += area;
+      of.total += area * totally_reflected(scene.optics, region.medium, links[i].smooth_to);
+    }
     if (lane_surface_at(scene, links[i])) of.known += area;
   }
-  return {of.smooth / all, of.known / all};
+  return {of.smooth / all, of.total / all, of.known / all};
 }
 
 }  // namespace scintray::scene

@@ -47,6 +47,9 @@ struct MediumRecord {
   bool particles = false;  ///< has particles that scatter
   std::uint32_t first_shift =
       0;  ///< with a shifter: first entry of SceneOptics::shifting_per_mm, `count` in all
+
+  /// Of the wavelengths of the table, which are those in use.
+  double middle_nm() const { return per_nm > 0.0 ? low_nm + 0.5 * last / per_nm : low_nm; }
 };
 static_assert(std::is_trivially_copyable_v<MediumRecord>);
 static_assert(std::is_trivially_copyable_v<optics::MediumOptics>);

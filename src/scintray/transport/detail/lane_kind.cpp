@@ -7,7 +7,8 @@ namespace scintray::transport {
 LaneKind lane_kind(const scene::Scene& scene, core::RegionId region, int lane_width) {
   if (lane_width == 1 || !scene.regions[region].in_lanes) return LaneKind::none;
   const scene::LaneShares shares = scene::lane_shares(scene, scene.regions[region]);
-  if (shares.smooth > 0.5) return LaneKind::smooth;
+  // With few total reflections in a row, entering and leaving the lanes costs more than they save.
+  if (shares.smooth > 0.5) return shares.total > 0.5 ? LaneKind::smooth : LaneKind::none;
   return run_lanes(lane_width) ? LaneKind::surfaces : LaneKind::none;
 }
 
