@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "scintray/core/statistics.hpp"
+
 namespace scintray::analysis {
 
 namespace {
@@ -15,7 +17,16 @@ constexpr double kCoreBinsPerSigma = 4.0;
 constexpr double kLeastInCore = 50.0;
 constexpr int kMostCoreRounds = 8;
 
-core::Estimate quantile_fwhm(std::span<const double> sorted) {
+/// Groups of values that are left out in turn; fewer values have errors of formulas.
+constexpr std::size_t kGroups = 32, kLeastPerGroup = 4;
+
+double quantile_fwhm(std::span<const double> sorted) {
+  return sorted_quantile(sorted, 1.0 - kLowerShare) - sorted_quantile(sorted, kLowerShare);
+}
+
+/// Error of quantile_fwhm without regard to the distribution: half the distance between the order statistics
+/// one standard deviation (sqrt(q (1 - q) N)) to either side, and the covariance of two order statistics.
+double error_by_order_statistics(std::span<const double> sorted) {
   const auto n = static_cast<double>(sorted.size());
   const double share = kLowerShare;
   const double step = std::sqrt(share * (1.0 - share) / n);
@@ -25,12 +36,27 @@ core::Estimate quantile_fwhm(std::span<const double> sorted) {
   const double low = error(share), high = error(1.0 - share);
   // Both shares are equally far from the ends, so the correlation is q / (1 - q).
   const double covariance = low * high * share / (1.0 - share);
-  return {sorted_quantile(sorted, 1.0 - share) - sorted_quantile(sorted, share),
-          std::sqrt(std::max(0.0, low * low + high * high - 2.0 * covariance))};
+  return std::sqrt(std::max(0.0, low * low + high * high - 2.0 * covariance));
 }
 
+/// A value and the group that it belongs to, by its place in the list.
+struct GroupedValue {
+  double value;
+  std::size_t group;
+};
+
+std::vector<GroupedValue> sorted_in_groups(std::span<const double> values) {
+  std::vector<GroupedValue> sorted;
+  for (const double value : values)
+    if (std::isfinite(value)) sorted.push_back({value, sorted.size() % kGroups});
+  std::sort(sorted.begin(), sorted.end(),
+            [](const GroupedValue& a, const GroupedValue& b) { return a.value < b.value; });
+  return sorted;
+}
+
+/// Sets the fit, and gaussian_fwhm with the error of the fit.
 void fit_core(std::span<const double> sorted, Spread& spread) {
-  double centre = sorted_quantile(sorted, 0.5), sigma = spread.quantile_fwhm.value / core::kFwhmPerSigma;
+  double centre = sorted_quantile(sorted, 0.5), sigma = quantile_fwhm(sorted) / core::kFwhmPerSigma;
   for (int round = 0; round < kMostCoreRounds; ++round) {
     spread.fitted = make_histogram_of_width(sorted, centre - kReach * sigma, centre + kReach * sigma,
                                             sigma / kCoreBinsPerSigma);
@@ -48,10 +74,29 @@ void fit_core(std::span<const double> sorted, Spread& spread) {
                           core::kFwhmPerSigma * spread.fit.sigma.error};
 }
 
+/// Errors of both widths by leaving out each group.
+void leave_out_groups(const std::vector<GroupedValue>& grouped, Spread& spread) {
+  std::vector<double> quantiles, gaussians, kept;
+  for (std::size_t group = 0; group < kGroups; ++group) {
+    kept.clear();
+    for (const GroupedValue& of : grouped)
+      if (of.group != group) kept.push_back(of.value);
+    quantiles.push_back(quantile_fwhm(kept));
+    if (!spread.fit.converged) continue;
+    Spread without;
+    fit_core(kept, without);
+    if (without.fit.converged) gaussians.push_back(without.gaussian_fwhm.value);
+  }
+  spread.quantile_fwhm.error = core::jackknife_error(quantiles);
+  if (gaussians.size() == kGroups) spread.gaussian_fwhm.error = core::jackknife_error(gaussians);
+}
+
 }  // namespace
 
 Spread spread_of(std::span<const double> values) {
-  const std::vector<double> sorted = sorted_finite(values);
+  const std::vector<GroupedValue> grouped = sorted_in_groups(values);
+  std::vector<double> sorted;
+  for (const GroupedValue& of : grouped) sorted.push_back(of.value);
   Spread spread;
   spread.count = sorted.size();
   core::Moments moments;
@@ -61,9 +106,10 @@ Spread spread_of(std::span<const double> values) {
   spread.mean = moments.mean();
   spread.mean.value += origin;
   if (sorted.size() < 2 || sorted.front() == sorted.back()) return spread;
-  spread.quantile_fwhm = quantile_fwhm(sorted);
+  spread.quantile_fwhm = {quantile_fwhm(sorted), error_by_order_statistics(sorted)};
   if (static_cast<double>(sorted.size()) >= kLeastInCore && spread.quantile_fwhm.value > 0.0)
     fit_core(sorted, spread);
+  if (sorted.size() >= kLeastPerGroup * kGroups) leave_out_groups(grouped, spread);
   return spread;
 }
 
