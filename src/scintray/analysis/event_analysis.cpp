@@ -112,13 +112,23 @@ void EventCollector::add(const tally::EventRecord& event) {
   if (!orders_.empty()) orders_.add(event);
 }
 
+Photopeak EventCollector::peak_of(const std::vector<double>& light) const {
+  Photopeak peak = fit_photopeak(light, setup_.photopeak);
+  core::Estimate& pulses = peak.fit.events;
+  // The fit takes the number of pulses as random; here it is a share of events whose number was set.
+  const double square =
+      pulses.error * pulses.error - pulses.value * pulses.value / static_cast<double>(events_);
+  pulses.error = std::sqrt(std::max(0.0, square));
+  return peak;
+}
+
 std::vector<double> EventCollector::analyze_peak(EventAnalysis& analysis) const {
   std::vector<double> light;
   light.reserve(rows_.size());
   for (const Row& row : rows_) light.push_back(row.light);
   analysis.mean_light = mean_of(light);
   analysis.light_per_keV = light_of_energy_.ratio();
-  analysis.peak = fit_photopeak(light, setup_.photopeak);
+  analysis.peak = peak_of(light);
   return light;
 }
 
@@ -148,7 +158,7 @@ void EventCollector::analyze_parts(EventAnalysis& analysis) const {
     if (const auto ratio = light_of_energy_in_.find(id); ratio != light_of_energy_in_.end())
       part.light_per_keV = ratio->second.ratio();
     part.spectrum = automatic_histogram(light);
-    part.peak = fit_photopeak(light, setup_.photopeak);
+    part.peak = peak_of(light);
     analysis.parts.push_back(std::move(part));
   }
 }
