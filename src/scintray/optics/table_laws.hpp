@@ -3,12 +3,16 @@
 /// photon alone what is looked up. Plain data, so that it may be compiled for instruction sets that not every
 /// processor has.
 
+#include <cstddef>
 #include <cstdint>
 
 #include "scintray/core/number.hpp"
 #include "scintray/optics/table_bins.hpp"
 
 namespace scintray::optics {
+
+using core::root;
+using core::select;
 
 /// Sine of the incidence angle below which there is no plane of incidence: one is drawn.
 inline constexpr double kNoIncidencePlane = 1e-9;
