@@ -118,7 +118,8 @@ Photopeak EventCollector::peak_of(const std::vector<double>& light) const {
   // The fit takes the number of pulses as random; here it is a share of events whose number was set.
   const double square =
       pulses.error * pulses.error - pulses.value * pulses.value / static_cast<double>(events_);
-  pulses.error = std::sqrt(std::max(0.0, square));
+  constexpr double kHalfAPulse = 0.5;  // where all events are in the peak, or none
+  pulses.error = std::sqrt(std::max(kHalfAPulse, square));
   return peak;
 }
 

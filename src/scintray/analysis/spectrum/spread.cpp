@@ -17,7 +17,7 @@ constexpr double kCoreBinsPerSigma = 4.0;
 constexpr double kLeastInCore = 50.0;
 constexpr int kMostCoreRounds = 8;
 
-/// Groups of values that are left out in turn; fewer values have errors of formulas.
+/// Groups of values that are left out in turn; of fewer values the error is the fit's own.
 constexpr std::size_t kGroups = 32, kLeastPerGroup = 4;
 
 double quantile_fwhm(std::span<const double> sorted) {
@@ -29,9 +29,9 @@ double quantile_fwhm(std::span<const double> sorted) {
 double error_by_order_statistics(std::span<const double> sorted) {
   const auto n = static_cast<double>(sorted.size());
   const double share = kLowerShare;
-  const double step = std::sqrt(share * (1.0 - share) / n);
+  const double step = 2.0 * std::sqrt(share * (1.0 - share) / n);
   const auto error = [&](double q) {
-    return 0.5 * (sorted_quantile(sorted, q + step) - sorted_quantile(sorted, q - step));
+    return 0.25 * (sorted_quantile(sorted, q + step) - sorted_quantile(sorted, q - step));
   };
   const double low = error(share), high = error(1.0 - share);
   // Both shares are equally far from the ends, so the correlation is q / (1 - q).
@@ -74,21 +74,19 @@ void fit_core(std::span<const double> sorted, Spread& spread) {
                           core::kFwhmPerSigma * spread.fit.sigma.error};
 }
 
-/// Errors of both widths by leaving out each group.
+/// Error of the Gaussian's width by leaving out each group.
 void leave_out_groups(const std::vector<GroupedValue>& grouped, Spread& spread) {
-  std::vector<double> quantiles, gaussians, kept;
+  std::vector<double> widths, kept;
   for (std::size_t group = 0; group < kGroups; ++group) {
     kept.clear();
     for (const GroupedValue& of : grouped)
       if (of.group != group) kept.push_back(of.value);
-    quantiles.push_back(quantile_fwhm(kept));
-    if (!spread.fit.converged) continue;
     Spread without;
     fit_core(kept, without);
-    if (without.fit.converged) gaussians.push_back(without.gaussian_fwhm.value);
+    if (!without.fit.converged) return;
+    widths.push_back(without.gaussian_fwhm.value);
   }
-  spread.quantile_fwhm.error = core::jackknife_error(quantiles);
-  if (gaussians.size() == kGroups) spread.gaussian_fwhm.error = core::jackknife_error(gaussians);
+  spread.gaussian_fwhm.error = core::jackknife_error(widths);
 }
 
 }  // namespace
@@ -109,7 +107,7 @@ Spread spread_of(std::span<const double> values) {
   spread.quantile_fwhm = {quantile_fwhm(sorted), error_by_order_statistics(sorted)};
   if (static_cast<double>(sorted.size()) >= kLeastInCore && spread.quantile_fwhm.value > 0.0)
     fit_core(sorted, spread);
-  if (sorted.size() >= kLeastPerGroup * kGroups) leave_out_groups(grouped, spread);
+  if (spread.fit.converged && sorted.size() >= kLeastPerGroup * kGroups) leave_out_groups(grouped, spread);
   return spread;
 }
 

@@ -21,12 +21,13 @@ struct Spread {
   Histogram fitted;  ///< bins of the fit; without bins when there was no fit
 };
 
-/// Centre and width of values. Errors of the widths are those of the jackknife over 32 groups of values, by
-/// their place in the list (core::jackknife_error): they hold where no Gaussian describes the values too, and
-/// include what the choice of the fitted range adds. Of fewer than 128 values: the fit's own error, and for
-/// quantiles half the distance between the order statistics one standard deviation (sqrt(q (1 - q) N)) to
-/// either side, with the covariance of two order statistics (Kendall & Stuart, The Advanced Theory of
-/// Statistics, vol. 1, section 10.10: cited from memory, assumed). Values that are not finite are left out.
+/// Centre and width of values. The error of the Gaussian's width is that of the jackknife over 32 groups of
+/// values, by their place in the list (core::jackknife_error): it holds where no Gaussian describes the
+/// values too, and includes what the choice of the fitted range adds; of fewer than 128 values it is the
+/// fit's own. That of the quantiles' width is distribution-free: a quarter of the distance between the order
+/// statistics two standard deviations (sqrt(q (1 - q) N)) to either side, with the covariance of two order
+/// statistics (Kendall & Stuart, The Advanced Theory of Statistics, vol. 1, section 10.10: cited from memory,
+/// assumed). Values that are not finite are left out.
 Spread spread_of(std::span<const double> values);
 
 }  // namespace scintray::analysis
