@@ -444,8 +444,10 @@ highX="-1" highY="0" highZ="1"/>)"),
                  {"no solid", "\"gone\""});
   check_contains(of(R"(<tube name="it" rmin="5" rmax="4" z="1" deltaphi="6"/>)"),
                  {"rmin", "between 0 and rmax"});
-  check_contains(of(R"(<tube name="it" rmax="5" z="2e9" deltaphi="360" aunit="deg"/>)"),
-                 {"test.gdml:14:2: error:", "no volume within rounding"});
+  check_contains(of(R"(<box name="it" x="1" y="1" z="4" lunit="1e6*m"/>)"),
+                 {"test.gdml:14:2: error:", "larger than 1000 km"});
+  check_contains(of(R"(<tube name="it" rmax="0.005" z="5e5" deltaphi="360" aunit="deg"/>)"),
+                 "no volume within rounding");
   check_contains(of(R"(<box name="world_box" x="3" y="3" z="3"/>)"), "already taken");
   check_contains(of(R"(<intersection name="it"><first ref="world_box"/><second ref="world_box"/>
 <position x="5" unit="m"/></intersection>)"),

@@ -26,6 +26,10 @@ constexpr core::Word<mesh::BooleanOperation> kBooleans[] = {
 /// Solids whose sides are flat however many they are.
 constexpr core::Word<bool> kFlatSided[] = {
     {"polyhedra", true}, {"genericPolyhedra", true}, {"xtru", true}, {"tessellated", true}};
+/// Largest coordinate of a solid: no detector is larger, and discs of any size would be cut in any number of
+/// sectors.
+constexpr double kLargest_mm = 1e9;
+
 /// Distance within which corners are on a round face: the contact tolerance of a scene without its own.
 constexpr double kCornersOnSurface_mm = 1e-4;
 
@@ -205,6 +209,9 @@ mesh::TriMesh Solids::make(Node solid) {
                       "solids of this kind cannot be made",
                       "write it as a tessellated solid, or leave out the volumes that use it with "
                       "--skip-unsupported"});
+  for (const core::Vec3& vertex : mesh->vertices)
+    if (!(vertex.cwiseAbs().maxCoeff() <= kLargest_mm))
+      throw core::InputError({{}, "it is larger than 1000 km", "check its dimensions and their units"});
   if (is_sound_by_construction(solid, definitions_)) return std::move(*mesh);
   if (const std::vector<core::Problem> problems =
           mesh::mesh_problems(mesh::diagnose(*mesh), solid.attribute("name").value());
