@@ -11,38 +11,15 @@
 
 namespace scintray::fuzz {
 
-/// A file of the bytes, as long as it lives.
-class ScratchFile {
+/// A path in the folder of temporary files, of this process alone. What is there is removed at its end.
+class ScratchPath {
  public:
-  ScratchFile(const std::uint8_t* data, std::size_t size, const char* ending)
+  explicit ScratchPath(const std::string& ending)
       : path_(std::filesystem::temp_directory_path() /
-              ("scintray_fuzz_" + std::to_string(getpid()) + ending)) {
-    std::ofstream(path_, std::ios::binary)
-        .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
-  }
-  ScratchFile(const ScratchFile&) = delete;
-  ScratchFile& operator=(const ScratchFile&) = delete;
-  ~ScratchFile() {
-    std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
-  }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
-/// An empty folder, as long as it lives.
-class ScratchFolder {
- public:
-  ScratchFolder()
-      : path_(std::filesystem::temp_directory_path() / ("scintray_fuzz_folder_" + std::to_string(getpid()))) {
-    std::filesystem::remove_all(path_);
-    std::filesystem::create_directories(path_);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  ~ScratchFolder() {
+              ("scintray_fuzz_" + std::to_string(getpid()) + ending)) {}
+  ScratchPath(const ScratchPath&) = delete;
+  ScratchPath& operator=(const ScratchPath&) = delete;
+  ~ScratchPath() {
     std::error_code ignored;
     std::filesystem::remove_all(path_, ignored);
   }
@@ -50,6 +27,24 @@ class ScratchFolder {
 
  private:
   std::filesystem::path path_;
+};
+
+/// A file of the bytes, as long as it lives.
+class ScratchFile : public ScratchPath {
+ public:
+  ScratchFile(const std::uint8_t* data, std::size_t size, const char* ending) : ScratchPath(ending) {
+    std::ofstream(path(), std::ios::binary)
+        .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
+  }
+};
+
+/// An empty folder, as long as it lives.
+class ScratchFolder : public ScratchPath {
+ public:
+  ScratchFolder() : ScratchPath("_folder") {
+    std::filesystem::remove_all(path());
+    std::filesystem::create_directories(path());
+  }
 };
 
 }  // namespace scintray::fuzz

@@ -111,7 +111,8 @@ struct Life {
 
 /// True when HDF5 would not come to an end in a heap of this file. It walks through the objects of a heap by
 /// their sizes and does not check that it moves: an object of no bytes, or one whose end is beyond all 64-bit
-/// numbers, holds it for ever (HDF5 1.10). Layout: HDF5 File Format Specification 3.0, section III.E.
+/// numbers, holds it for ever (HDF5 1.10). Layout: HDF5 File Format Specification 3.0, section III.E (cited
+/// from memory: assumed; a test changes heaps that HDF5 wrote).
 bool has_endless_heap(const std::filesystem::path& path);
 
 struct File::State {
