@@ -36,22 +36,42 @@ struct BinExpectation {
   std::array<double, kMostParameters> slope{};
 };
 
-BinExpectation expectation(const PeakModel& model, double low, double high) {
-  const double a = (low - model.position) / model.sigma, b = (high - model.position) / model.sigma;
-  const double density_a = normal_density(a), density_b = normal_density(b);
-  const double tail_a = upper_tail(a), tail_b = upper_tail(b);
+/// Terms of the model at an edge of a bin, which two bins share.
+struct EdgeTerms {
+  double u, density, tail_above, tail_below;
+
+  EdgeTerms(const PeakModel& model, double x)
+      : u((x - model.position) / model.sigma),
+        density(normal_density(u)),
+        tail_above(upper_tail(u)),
+        tail_below(upper_tail(-u)) {}
+};
+
+BinExpectation expectation(const PeakModel& model, const EdgeTerms& a, const EdgeTerms& b, double width) {
   // The difference of the nearer tails keeps its precision on either side of the peak.
-  const double share = a > 0.0 ? tail_a - tail_b : upper_tail(-b) - upper_tail(-a);
-  const double step = model.sigma * ((b * tail_b - density_b) - (a * tail_a - density_a));
+  const double share = a.u > 0.0 ? a.tail_above - b.tail_above : b.tail_below - a.tail_below;
+  const double step = model.sigma * ((b.u * b.tail_above - b.density) - (a.u * a.tail_above - a.density));
   BinExpectation bin;
-  bin.value = model.events * share + model.shoulder * step + model.constant * (high - low);
-  bin.slope[0] = model.events * (density_a - density_b) / model.sigma + model.shoulder * (tail_a - tail_b);
-  bin.slope[1] =
-      model.events * (a * density_a - b * density_b) + model.shoulder * model.sigma * (density_a - density_b);
+  bin.value = model.events * share + model.shoulder * step + model.constant * width;
+  bin.slope[0] =
+      model.events * (a.density - b.density) / model.sigma + model.shoulder * (a.tail_above - b.tail_above);
+  bin.slope[1] = model.events * (a.u * a.density - b.u * b.density) +
+                 model.shoulder * model.sigma * (a.density - b.density);
   bin.slope[2] = model.events * share;
   bin.slope[3] = model.shoulder * step;
-  bin.slope[4] = model.constant * (high - low);
+  bin.slope[4] = model.constant * width;
   return bin;
+}
+
+/// Calls `act` with the number and the expectation of each bin, in order.
+template <typename Act>
+void for_each_bin(const PeakModel& model, const Histogram& histogram, Act act) {
+  EdgeTerms low(model, histogram.edge(0));
+  for (std::size_t i = 0; i < histogram.counts.size(); ++i) {
+    const EdgeTerms high(model, histogram.edge(i + 1));
+    act(i, expectation(model, low, high, histogram.edge(i + 1) - histogram.edge(i)));
+    low = high;
+  }
 }
 
 /// Positions are fitted in units of the first sigma from the first position, so that the units of the
@@ -94,11 +114,9 @@ int residuals(const gsl_vector* x, void* data, gsl_vector* out) {
   const Task& task = *static_cast<const Task*>(data);
   const PeakModel model = task.model(x);
   if (!usable(model)) return GSL_EDOM;
-  for (std::size_t i = 0; i < task.histogram.counts.size(); ++i) {
-    const double expected = std::max(
-        kLeastExpected, expectation(model, task.histogram.edge(i), task.histogram.edge(i + 1)).value);
-    gsl_vector_set(out, i, residual(task.histogram.counts[i], expected));
-  }
+  for_each_bin(model, task.histogram, [&](std::size_t i, const BinExpectation& bin) {
+    gsl_vector_set(out, i, residual(task.histogram.counts[i], std::max(kLeastExpected, bin.value)));
+  });
   return GSL_SUCCESS;
 }
 
@@ -106,12 +124,11 @@ int jacobian(const gsl_vector* x, void* data, gsl_matrix* out) {
   const Task& task = *static_cast<const Task*>(data);
   const PeakModel model = task.model(x);
   if (!usable(model)) return GSL_EDOM;
-  for (std::size_t i = 0; i < task.histogram.counts.size(); ++i) {
-    const BinExpectation bin = expectation(model, task.histogram.edge(i), task.histogram.edge(i + 1));
+  for_each_bin(model, task.histogram, [&](std::size_t i, const BinExpectation& bin) {
     const double slope = residual_slope(task.histogram.counts[i], std::max(kLeastExpected, bin.value));
     for (std::size_t k = 0; k < out->size2; ++k)
       gsl_matrix_set(out, i, k, slope * bin.slope[k] * (k == 0 ? task.start.sigma : 1.0));
-  }
+  });
   return GSL_SUCCESS;
 }
 
@@ -150,11 +167,10 @@ bool search(Task& task, PeakModel& found) {
 void set_errors(const Histogram& histogram, PeakFit& fit) {
   const auto parameters = static_cast<Eigen::Index>(parameters_of(fit.background));
   Eigen::MatrixXd information = Eigen::MatrixXd::Zero(parameters, parameters);
-  for (std::size_t i = 0; i < histogram.counts.size(); ++i) {
-    const BinExpectation bin = expectation(fit.model, histogram.edge(i), histogram.edge(i + 1));
+  for_each_bin(fit.model, histogram, [&](std::size_t, const BinExpectation& bin) {
     const Eigen::Map<const Eigen::VectorXd> slope(bin.slope.data(), parameters);
     information += slope * slope.transpose() / std::max(kLeastExpected, bin.value);
-  }
+  });
   // A background of zero carries no information: its row would make the matrix singular.
   for (Eigen::Index k = 0; k < parameters; ++k)
     if (information(k, k) < 1e-9) information(k, k) = 1e-9;
@@ -174,13 +190,12 @@ void set_errors(const Histogram& histogram, PeakFit& fit) {
 void set_goodness(const Histogram& histogram, PeakFit& fit) {
   std::vector<std::uint64_t> observed;
   std::vector<double> expected;
-  for (std::size_t i = 0; i < histogram.counts.size(); ++i) {
+  for_each_bin(fit.model, histogram, [&](std::size_t i, const BinExpectation& bin) {
     observed.push_back(static_cast<std::uint64_t>(histogram.counts[i]));
-    expected.push_back(
-        std::max(kLeastExpected, fit.model.expected(histogram.edge(i), histogram.edge(i + 1))));
+    expected.push_back(std::max(kLeastExpected, bin.value));
     const double r = residual(histogram.counts[i], expected.back());
     fit.deviance += r * r;
-  }
+  });
   fit.goodness = core::chi_square_test(observed, expected);
   // That test subtracts one degree for a fixed total; here the total is fitted with the rest.
   fit.goodness.degrees += 1.0 - static_cast<double>(parameters_of(fit.background));
@@ -194,7 +209,9 @@ double PeakModel::density(double x) const {
   return events * normal_density(u) / sigma + shoulder * upper_tail(u) + constant;
 }
 
-double PeakModel::expected(double low, double high) const { return expectation(*this, low, high).value; }
+double PeakModel::expected(double low, double high) const {
+  return expectation(*this, EdgeTerms(*this, low), EdgeTerms(*this, high), high - low).value;
+}
 
 PeakFit fit_peak(const Histogram& histogram, const PeakModel& start, PeakBackground background) {
   silence_gsl();

@@ -9,7 +9,9 @@
 #include <span>
 #include <vector>
 
+#include "scintray/analysis/spectrum/detail/grouped_values.hpp"
 #include "scintray/analysis/spectrum/detail/smoothing.hpp"
+#include "scintray/core/statistics.hpp"
 #include "scintray/core/vec.hpp"
 
 namespace scintray::analysis {
@@ -17,12 +19,18 @@ namespace scintray::analysis {
 namespace {
 
 constexpr double kLeastInPeak = 100.0;
-constexpr double kBelow = 3.0, kAbove = 4.0, kLeastBelow = 1.5;
+constexpr double kBelow = 3.0, kAbove = 4.0, kLeastBelow = 1.5, kFlanks = 1.6;
 constexpr double kPeakBinsPerSigma = 4.0;
 constexpr double kWorthATerm = 9.0;
 constexpr double kPoor = 1e-4;
 constexpr double kSmallMisfit = 0.01;
 constexpr int kMostPeakRounds = 8;
+/// Change of position and sigma, in sigma, below which a fit is not repeated.
+constexpr double kStable = 0.02;
+/// Share of the sigma of its range below which a fit has found a fluctuation in place of the peak.
+constexpr double kLeastShrinking = 0.25;
+/// Quarters, as the fitted range and background depend on the values in steps; 36 degrees of freedom.
+constexpr Divisions kDivisions{.number = 12, .groups = 4};
 
 /// Approximate photopeak of a spectrum: the start of a fit.
 struct PeakPlace {
@@ -30,7 +38,6 @@ struct PeakPlace {
   double sigma = 0.0;        ///< from the half width at half maximum above the peak
   double sigma_below = 0.0;  ///< from that below it: a shoulder makes it larger
   double height = 0.0;       ///< density of values at the peak, smoothed
-  double valley = 0.0;       ///< of the lowest point between the previous maximum and the peak
 };
 
 constexpr std::size_t kBins = 512;
@@ -45,7 +52,7 @@ double height_error(double height, double width) {
 }
 
 struct Maximum {
-  std::size_t at = 0, valley = 0;
+  std::size_t at = 0;
   double height = 0.0;
 };
 
@@ -61,7 +68,7 @@ std::vector<Maximum> maxima(const std::vector<double>& density, double width) {
     const double here = density[climbing ? top : i];
     const double limit = kPeakSignificance * height_error(here, width);
     if (climbing && density[top] - density[i] > limit) {
-      if (density[top] - density[valley] > limit) found.push_back({top, valley, density[top]});
+      if (density[top] - density[valley] > limit) found.push_back({top, density[top]});
       climbing = false;
       valley = i;
     } else if (!climbing && density[i] - density[valley] > limit) {
@@ -71,7 +78,7 @@ std::vector<Maximum> maxima(const std::vector<double>& density, double width) {
   }
   // A spectrum truncated above its peak does not decrease again.
   if (climbing && density[top] - density[valley] > kPeakSignificance * height_error(density[top], width))
-    found.push_back({top, valley, density[top]});
+    found.push_back({top, density[top]});
   return found;
 }
 
@@ -87,7 +94,7 @@ PeakPlace place_of(const Maximum& peak, const std::vector<double>& density, cons
   while (right + 1 < density.size() && density[right] > 0.5 * peak.height) ++right;
   while (left > 0 && density[left] > 0.5 * peak.height) --left;
   return {grid.centre(peak.at), sigma_from(right - peak.at, width) * grid.width,
-          sigma_from(peak.at - left, width) * grid.width, peak.height / grid.width, grid.centre(peak.valley)};
+          sigma_from(peak.at - left, width) * grid.width, peak.height / grid.width};
 }
 
 /// The highest in x of the significant maxima with a tenth of the height of the highest; see
@@ -143,8 +150,27 @@ struct Span {
   double low = 0.0, high = 0.0;
 };
 
-Span span_of(double position, double sigma, double valley, const PhotopeakOptions& options) {
-  Span span{std::max(position - kBelow * sigma, std::min(valley, position - kLeastBelow * sigma)),
+/// Where the density below a peak, smoothed by a third of its sigma, has fallen to a quarter of its height
+/// above the valley there. The valley's place would be known to a sigma only, as its bottom is flat.
+double lower_flank(std::span<const double> sorted, double position, double sigma) {
+  constexpr std::size_t kCells = 16;  // a sigma
+  constexpr std::size_t kPeak = 5 * kCells, kEnd = 6 * kCells, kLowest = kCells;
+  const Histogram near = make_histogram(sorted, position - 5.0 * sigma, position + sigma, kEnd);
+  const std::vector<double> density = convolved(near.counts, gaussian_kernel(kCells / 3.0), {1, kEnd});
+  const double valley = *std::min_element(density.begin() + kLowest, density.begin() + kPeak);
+  const double level = valley + 0.25 * (density[kPeak] - valley);
+  std::size_t at = kPeak;
+  while (at > kLowest && density[at - 1] > level) --at;
+  const double rise = density[at] - density[at - 1];
+  return rise > 0.0
+             ? near.centre(at - 1) + std::clamp((level - density[at - 1]) / rise, 0.0, 1.0) * near.width
+             : near.centre(at);
+}
+
+/// A pure Gaussian, smoothed so, has its flank at 1.75 sigma.
+Span span_of(std::span<const double> sorted, double position, double sigma, const PhotopeakOptions& options) {
+  const double flank = position - lower_flank(sorted, position, sigma);
+  Span span{position - std::clamp(kFlanks * flank, kLeastBelow * sigma, kBelow * sigma),
             position + kAbove * sigma};
   if (options.window) {
     span.low = std::max(span.low, options.window->front());
@@ -174,22 +200,52 @@ bool cut_off(std::span<const double> sorted, const PeakPlace& place, bool above)
 
 /// Repeats the fit until its bins are those that its result requires.
 void fit_until_stable(std::span<const double> sorted, const PeakPlace& place, const PhotopeakOptions& options,
-                      Photopeak& peak) {
+                      double least, Photopeak& peak) {
   double position = place.position, sigma = place.sigma;
   for (int round = 0; round < kMostPeakRounds; ++round) {
-    const Span span = span_of(position, sigma, place.valley, options);
+    const Span span = span_of(sorted, position, sigma, options);
     if (!(span.high > span.low)) return;
     peak.fitted = make_histogram_of_width(sorted, span.low, span.high, sigma / kPeakBinsPerSigma);
-    if (peak.fitted.total() < kLeastInPeak) return;
+    if (peak.fitted.total() < least) return;
     const PeakFit fit = fit_with_background(peak.fitted, start_model(peak.fitted, position, sigma), options);
     if (!fit.converged) return;
-    const bool stable = std::abs(fit.model.position - position) < 0.05 * sigma &&
-                        std::abs(fit.model.sigma - sigma) < 0.05 * sigma;
+    if (fit.model.sigma < kLeastShrinking * sigma) {
+      // A fluctuation in a range that is too narrow for the peak.
+      sigma *= 2.0;
+      continue;
+    }
+    const bool stable = std::abs(fit.model.position - position) < kStable * sigma &&
+                        std::abs(fit.model.sigma - sigma) < kStable * sigma;
     peak.fit = fit;
     if (stable) return;
     position = fit.model.position;
     sigma = std::clamp(fit.model.sigma, 0.5 * sigma, 2.0 * sigma);
   }
+}
+
+/// Errors by leaving out groups: the model has not the exact shape of a spectrum of gammas, and the range and
+/// the background that are fitted depend on the values, of which the errors of one fit know nothing. They
+/// stay those of the fit where one of the others does not converge.
+void leave_out_groups(const GroupedValues& values, const PeakPlace& place, const PhotopeakOptions& options,
+                      PeakFit& fit) {
+  PeakPlace found = place;
+  found.position = fit.model.position;
+  found.sigma = fit.model.sigma;
+  const auto fit_of = [&](std::span<const double> kept) -> std::optional<std::vector<double>> {
+    Photopeak without;
+    fit_until_stable(kept, found, options, 0.0, without);
+    if (!without.fit.converged) return std::nullopt;
+    return std::vector{without.fit.position.value, without.fit.sigma.value, without.fit.relative_fwhm.value,
+                       without.fit.events.value / static_cast<double>(kept.size())};
+  };
+  const auto errors = jackknife_errors(values, kDivisions, fit_of);
+  if (!errors) return;
+  fit.position.error = (*errors)[0];
+  fit.sigma.error = (*errors)[1];
+  fit.relative_fwhm.error = (*errors)[2];
+  // Of a share of the values, whose number fluctuates as a Poisson variable.
+  const auto number = static_cast<double>(values.sorted().size());
+  fit.events.error = std::hypot(number * (*errors)[3], fit.events.value / std::sqrt(number));
 }
 
 }  // namespace
@@ -224,13 +280,9 @@ bool Photopeak::locates_peak() const {
 
 Photopeak fit_photopeak(std::span<const double> values, const PhotopeakOptions& options) {
   Photopeak peak;
-  std::vector<double> sorted = sorted_finite(values);
-  if (options.window) {
-    const auto inside = std::partition_point(sorted.begin(), sorted.end(),
-                                             [&](double x) { return x <= options.window->back(); });
-    sorted.erase(inside, sorted.end());
-    sorted.erase(sorted.begin(), std::lower_bound(sorted.begin(), sorted.end(), options.window->front()));
-  }
+  GroupedValues grouped(values);
+  if (options.window) grouped.keep_between(options.window->front(), options.window->back());
+  const std::vector<double>& sorted = grouped.sorted();
   if (static_cast<double>(sorted.size()) < kLeastInPeak)
     return with_status(
         peak, PeakStatus::too_few,
@@ -245,7 +297,7 @@ Photopeak fit_photopeak(std::span<const double> values, const PhotopeakOptions& 
       return with_status(peak, PeakStatus::edge_of_range,
                          fmt::format("the data end at {:.4g}, on the slope of the peak at {:.4g}",
                                      above ? sorted.back() : sorted.front(), place->position));
-  fit_until_stable(sorted, *place, options, peak);
+  fit_until_stable(sorted, *place, options, kLeastInPeak, peak);
   if (!peak.has_numbers()) {
     if (peak.fitted.total() < kLeastInPeak)
       return with_status(peak, PeakStatus::too_few,
@@ -254,6 +306,7 @@ Photopeak fit_photopeak(std::span<const double> values, const PhotopeakOptions& 
     return with_status(peak, PeakStatus::not_converged,
                        fmt::format("the fit of the peak near {:.4g} did not converge", place->position));
   }
+  leave_out_groups(grouped, *place, options, peak.fit);
   const PeakModel& model = peak.fit.model;
   const double margin_above = (sorted.back() - model.position) / model.sigma;
   const double margin_below = (model.position - sorted.front()) / model.sigma;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "scintray/analysis/spectrum/detail/grouped_values.hpp"
 #include "scintray/core/statistics.hpp"
 
 namespace scintray::analysis {
@@ -16,9 +17,6 @@ constexpr double kReach = 2.5;
 constexpr double kCoreBinsPerSigma = 4.0;
 constexpr double kLeastInCore = 50.0;
 constexpr int kMostCoreRounds = 8;
-
-/// Groups of values that are left out in turn; of fewer values the error is the fit's own.
-constexpr std::size_t kGroups = 32, kLeastPerGroup = 4;
 
 double quantile_fwhm(std::span<const double> sorted) {
   return sorted_quantile(sorted, 1.0 - kLowerShare) - sorted_quantile(sorted, kLowerShare);
@@ -41,21 +39,6 @@ double error_by_order_statistics(std::span<const double> sorted) {
   return std::sqrt(std::max(0.0, low * low + high * high - 2.0 * covariance));
 }
 
-/// A value and the group that it belongs to, by its place in the list.
-struct GroupedValue {
-  double value;
-  std::size_t group;
-};
-
-std::vector<GroupedValue> sorted_in_groups(std::span<const double> values) {
-  std::vector<GroupedValue> sorted;
-  for (const double value : values)
-    if (std::isfinite(value)) sorted.push_back({value, sorted.size() % kGroups});
-  std::sort(sorted.begin(), sorted.end(),
-            [](const GroupedValue& a, const GroupedValue& b) { return a.value < b.value; });
-  return sorted;
-}
-
 /// Sets the fit, and gaussian_fwhm with the error of the fit.
 void fit_core(std::span<const double> sorted, Spread& spread) {
   double centre = sorted_quantile(sorted, 0.5), sigma = quantile_fwhm(sorted) / core::kFwhmPerSigma;
@@ -76,27 +59,23 @@ void fit_core(std::span<const double> sorted, Spread& spread) {
                           core::kFwhmPerSigma * spread.fit.sigma.error};
 }
 
-/// Error of the Gaussian's width by leaving out each group.
-void leave_out_groups(const std::vector<GroupedValue>& grouped, Spread& spread) {
-  std::vector<double> widths, kept;
-  for (std::size_t group = 0; group < kGroups; ++group) {
-    kept.clear();
-    for (const GroupedValue& of : grouped)
-      if (of.group != group) kept.push_back(of.value);
+/// Error of the Gaussian's width by leaving out groups.
+void leave_out_groups(const GroupedValues& values, Spread& spread) {
+  const auto width_of = [](std::span<const double> kept) -> std::optional<std::vector<double>> {
     Spread without;
     fit_core(kept, without);
-    if (!without.fit.converged) return;
-    widths.push_back(without.gaussian_fwhm.value);
-  }
-  spread.gaussian_fwhm.error = core::jackknife_error(widths);
+    if (!without.fit.converged) return std::nullopt;
+    return std::vector{without.gaussian_fwhm.value};
+  };
+  if (const auto errors = jackknife_errors(values, {}, width_of))
+    spread.gaussian_fwhm.error = errors->front();
 }
 
 }  // namespace
 
 Spread spread_of(std::span<const double> values) {
-  const std::vector<GroupedValue> grouped = sorted_in_groups(values);
-  std::vector<double> sorted;
-  for (const GroupedValue& of : grouped) sorted.push_back(of.value);
+  const GroupedValues grouped(values);
+  const std::vector<double>& sorted = grouped.sorted();
   Spread spread;
   spread.count = sorted.size();
   core::Moments moments;
@@ -109,7 +88,7 @@ Spread spread_of(std::span<const double> values) {
   spread.quantile_fwhm = {quantile_fwhm(sorted), error_by_order_statistics(sorted)};
   if (static_cast<double>(sorted.size()) >= kLeastInCore && spread.quantile_fwhm.value > 0.0)
     fit_core(sorted, spread);
-  if (spread.fit.converged && sorted.size() >= kLeastPerGroup * kGroups) leave_out_groups(grouped, spread);
+  if (spread.fit.converged) leave_out_groups(grouped, spread);
   return spread;
 }
 

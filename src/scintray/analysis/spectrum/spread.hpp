@@ -21,8 +21,8 @@ struct Spread {
   Histogram fitted;  ///< bins of the fit; without bins when there was no fit
 };
 
-/// Centre and width of values. The error of the Gaussian's width is that of the jackknife over 32 groups of
-/// values, by their place in the list (core::jackknife_error): it holds where no Gaussian describes the
+/// Centre and width of values. The error of the Gaussian's width is that of the jackknife over 32 random
+/// groups of values (core::jackknife_error): it holds where no Gaussian describes the
 /// values too, and includes what the choice of the fitted range adds; of fewer than 128 values it is the
 /// fit's own. That of the quantiles' width is distribution-free: a quarter of the distance between the order
 /// statistics two standard deviations (sqrt(q (1 - q) N)) to either side, with the covariance of two order

@@ -6,6 +6,7 @@
 
 #include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "scintray/core/h5.hpp"
@@ -109,11 +110,30 @@ struct Life {
   void require_usable(const std::string& name) const;
 };
 
-/// True when HDF5 would not come to an end in a heap of this file. It walks through the objects of a heap by
-/// their sizes and does not check that it moves: an object of no bytes, or one whose end is beyond all 64-bit
-/// numbers, holds it for ever (HDF5 1.10). Layout: HDF5 File Format Specification 3.0, section III.E (cited
-/// from memory: assumed; a test changes heaps that HDF5 wrote).
-bool has_endless_heap(const std::filesystem::path& path);
+/// The heaps in which a file keeps its texts, before HDF5 reads them: it trusts them and what refers to them
+/// (HDF5 1.10). Layout: HDF5 File Format Specification 3.0, section III.E (cited from memory: assumed; tests
+/// change heaps that HDF5 wrote).
+class TextHeaps {
+ public:
+  explicit TextHeaps(const std::filesystem::path& path);
+  ~TextHeaps();
+  TextHeaps(const TextHeaps&) = delete;
+  TextHeaps& operator=(const TextHeaps&) = delete;
+
+  /// True when HDF5 would not come to an end in a heap of this file. It walks through the objects of a heap
+  /// by their sizes and does not check that it moves: an object of no bytes, or one whose end is beyond all
+  /// 64-bit numbers, holds it for ever.
+  bool endless() const;
+  /// Whether `count` references of 16 bytes, from a byte of the file on, are to texts that the heaps have.
+  /// HDF5 does not check the number of an object, and copies from wherever it takes it to be.
+  bool have(std::uint64_t from, std::uint64_t count) const;
+
+ private:
+  std::string_view bytes() const;
+
+  void* begin_ = nullptr;  ///< of the file in memory; none when it could not be mapped
+  std::size_t size_ = 0;
+};
 
 struct File::State {
   std::filesystem::path path;
