@@ -25,6 +25,9 @@ constexpr double kWorthATerm = 9.0;
 constexpr double kPoor = 1e-4;
 constexpr double kSmallMisfit = 0.01;
 constexpr int kMostPeakRounds = 8;
+/// Height of a continuum 3 sigma below the peak over the valley, in heights of the peak, from which on it is
+/// not fitted.
+constexpr double kRise = 0.07;
 /// Change of position and sigma, in sigma, below which a fit is not repeated.
 constexpr double kStable = 0.02;
 /// Share of the sigma of its range below which a fit has found a fluctuation in place of the peak.
@@ -150,28 +153,29 @@ struct Span {
   double low = 0.0, high = 0.0;
 };
 
-/// Where the density below a peak, smoothed by a third of its sigma, has fallen to a quarter of its height
-/// above the valley there. The valley's place would be known to a sigma only, as its bottom is flat.
-double lower_flank(std::span<const double> sorted, double position, double sigma) {
+/// How far below a peak its model holds, in sigma: kBelow, but less as a continuum rises within that. Found
+/// from the density, smoothed by a third of sigma, without steps: the valley's place, whose bottom is flat,
+/// would be known to a sigma only. So the flank is where the density has fallen to a quarter of its height
+/// above the valley.
+double reach_below(std::span<const double> sorted, double position, double sigma) {
   constexpr std::size_t kCells = 16;  // a sigma
-  constexpr std::size_t kPeak = 5 * kCells, kEnd = 6 * kCells, kLowest = kCells;
+  constexpr std::size_t kPeak = 5 * kCells, kEnd = 6 * kCells, kFirst = kPeak - 3 * kCells;
   const Histogram near = make_histogram(sorted, position - 5.0 * sigma, position + sigma, kEnd);
   const std::vector<double> density = convolved(near.counts, gaussian_kernel(kCells / 3.0), {1, kEnd});
-  const double valley = *std::min_element(density.begin() + kLowest, density.begin() + kPeak);
-  const double level = valley + 0.25 * (density[kPeak] - valley);
+  const double valley = *std::min_element(density.begin() + kFirst, density.begin() + kPeak);
+  const double height = density[kPeak] - valley;
+  if (!(height > 0.0)) return kBelow;
   std::size_t at = kPeak;
-  while (at > kLowest && density[at - 1] > level) --at;
-  const double rise = density[at] - density[at - 1];
-  return rise > 0.0
-             ? near.centre(at - 1) + std::clamp((level - density[at - 1]) / rise, 0.0, 1.0) * near.width
-             : near.centre(at);
+  while (at > kFirst && density[at - 1] > valley + 0.25 * height) --at;
+  const double step = density[at] - density[at - 1];
+  const double part = step > 0.0 ? (density[at] - valley - 0.25 * height) / step : 0.0;
+  const double flank = (static_cast<double>(kPeak - at) + std::clamp(part, 0.0, 1.0)) / kCells;
+  const double rise = std::clamp((density[kFirst] - valley) / (kRise * height), 0.0, 1.0);
+  return (1.0 - rise) * kBelow + rise * std::clamp(kFlanks * flank, kLeastBelow, kBelow);
 }
 
-/// A pure Gaussian, smoothed so, has its flank at 1.75 sigma.
 Span span_of(std::span<const double> sorted, double position, double sigma, const PhotopeakOptions& options) {
-  const double flank = position - lower_flank(sorted, position, sigma);
-  Span span{position - std::clamp(kFlanks * flank, kLeastBelow * sigma, kBelow * sigma),
-            position + kAbove * sigma};
+  Span span{position - reach_below(sorted, position, sigma) * sigma, position + kAbove * sigma};
   if (options.window) {
     span.low = std::max(span.low, options.window->front());
     span.high = std::min(span.high, options.window->back());

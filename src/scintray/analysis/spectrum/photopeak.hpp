@@ -50,12 +50,13 @@ struct Photopeak {
 
 /// Search and fit of the photopeak. The search smooths the spectrum with decreasing widths and uses the first
 /// width finer than half the peak found; a maximum counts when it is 4 standard errors above the
-/// valleys beside it. The fit spans from 1.6 times the distance at which the smoothed spectrum has fallen to
-/// a quarter of its height above the valley below the peak, 1.5 to 3 sigma, to 4 sigma above, in bins of
-/// sigma / 4, and is repeated until the span agrees with the result. The errors are those of the jackknife
-/// over quarters of the values, in 12 random divisions: they hold where the model has not the shape of the
-/// spectrum too, and include what the choice of the span and of the background adds; where a fit of three
-/// quarters fails, they are the fit's own. That of `events` takes the number of pulses as Poisson's.
+/// valleys beside it. The fit spans from 3 sigma below the peak to 4 sigma above, in bins of sigma / 4; where
+/// a continuum rises within that, from 1.6 times the distance at which the smoothed spectrum has fallen to a
+/// quarter of its height above the valley (1.5 to 3 sigma). It is repeated until the span agrees with the
+/// result. The errors are those of the jackknife over quarters of the values, in 12 random divisions: they
+/// hold where the model has not the shape of the spectrum too, and include what the choice of the span and of
+/// the background adds; where a fit of three quarters fails, they are the fit's own. That of `events` takes
+/// the number of pulses as Poisson's.
 /// @param values  one a pulse, any positive unit; values that are not finite are left out
 Photopeak fit_photopeak(std::span<const double> values, const PhotopeakOptions& options = {});
 

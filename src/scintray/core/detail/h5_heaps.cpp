@@ -79,7 +79,8 @@ bool TextHeaps::endless() const {
 bool TextHeaps::have(std::uint64_t from, std::uint64_t count) const {
   const std::string_view all = bytes();
   if (from > all.size() || count > (all.size() - from) / kReference) return false;
-  std::map<std::uint64_t, std::map<std::uint32_t, std::uint64_t>> heaps;  // lengths of the objects of each
+  using Lengths = std::map<std::uint32_t, std::uint64_t>;  // of the objects of a heap
+  std::map<std::uint64_t, Lengths> heaps;
   for (std::uint64_t i = 0; i < count; ++i) {
     const char* reference = all.data() + from + i * kReference;
     const auto length = number_at<std::uint32_t>(reference);
@@ -87,14 +88,15 @@ bool TextHeaps::have(std::uint64_t from, std::uint64_t count) const {
     const auto index = number_at<std::uint32_t>(reference + 12);
     if (heap == 0) continue;  // no text
     if (heap >= all.size() || !all.substr(heap).starts_with(kSignature)) return false;
-    const auto [objects, is_new] = heaps.try_emplace(heap);
+    const auto [place, is_new] = heaps.try_emplace(heap);
+    Lengths& objects = place->second;
     if (is_new)
-      walk(all.substr(heap), [&](std::uint16_t of, std::uint64_t bytes_of) {
-        objects->second[of] = bytes_of;
+      walk(all.substr(heap), [&objects](std::uint16_t of, std::uint64_t bytes_of) {
+        objects[of] = bytes_of;
         return false;
       });
-    const auto object = objects->second.find(index);
-    if (object == objects->second.end() || object->second < length) return false;
+    const auto object = objects.find(index);
+    if (object == objects.end() || object->second < length) return false;
   }
   return true;
 }
