@@ -34,7 +34,9 @@ class Case(unittest.TestCase):
 
 def program(*arguments, folder=None):
     """Runs the program; returns what it printed."""
-    done = subprocess.run([PROGRAM, *map(str, arguments)], check=False, cwd=folder, text=True,
+    # What was loaded into this interpreter (a sanitizer's runtime) is not for the program.
+    environment = {key: value for key, value in os.environ.items() if key != 'LD_PRELOAD'}
+    done = subprocess.run([PROGRAM, *map(str, arguments)], check=False, cwd=folder, text=True, env=environment,
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     if done.returncode != 0:
         raise AssertionError(f'{done.args} returned {done.returncode}: {done.stderr}')
