@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "scintray/analysis/spectrum/detail/jackknife.hpp"
+#include "scintray/analysis/spectrum/detail/grouped_values.hpp"
 #include "scintray/analysis/spectrum/detail/smoothing.hpp"
 #include "scintray/core/statistics.hpp"
 #include "scintray/core/vec.hpp"
@@ -230,8 +230,9 @@ void fit_until_stable(std::span<const double> sorted, const PeakPlace& place, co
 /// Errors by leaving out groups: the model has not the exact shape of a spectrum of gammas, and the range and
 /// the background that are fitted depend on the values, of which the errors of one fit know nothing. They
 /// stay those of the fit where one of the others does not converge.
-void leave_out_groups(std::span<const double> sorted, const PhotopeakOptions& options, PeakFit& fit) {
-  PeakPlace found;
+void leave_out_groups(const GroupedValues& values, const PeakPlace& place, const PhotopeakOptions& options,
+                      PeakFit& fit) {
+  PeakPlace found = place;
   found.position = fit.model.position;
   found.sigma = fit.model.sigma;
   const auto fit_of = [&](std::span<const double> kept) -> std::optional<std::vector<double>> {
@@ -241,13 +242,13 @@ void leave_out_groups(std::span<const double> sorted, const PhotopeakOptions& op
     return std::vector{without.fit.position.value, without.fit.sigma.value, without.fit.relative_fwhm.value,
                        without.fit.events.value / static_cast<double>(kept.size())};
   };
-  const auto errors = jackknife_errors(sorted, kDivisions, fit_of);
+  const auto errors = jackknife_errors(values, kDivisions, fit_of);
   if (!errors) return;
   fit.position.error = (*errors)[0];
   fit.sigma.error = (*errors)[1];
   fit.relative_fwhm.error = (*errors)[2];
   // Of a share of the values, whose number fluctuates as a Poisson variable.
-  const auto number = static_cast<double>(sorted.size());
+  const auto number = static_cast<double>(values.sorted().size());
   fit.events.error = std::hypot(number * (*errors)[3], fit.events.value / std::sqrt(number));
 }
 
@@ -283,13 +284,9 @@ bool Photopeak::locates_peak() const {
 
 Photopeak fit_photopeak(std::span<const double> values, const PhotopeakOptions& options) {
   Photopeak peak;
-  std::vector<double> sorted = sorted_finite(values);
-  if (options.window) {
-    const auto inside = std::partition_point(sorted.begin(), sorted.end(),
-                                             [&](double x) { return x <= options.window->back(); });
-    sorted.erase(inside, sorted.end());
-    sorted.erase(sorted.begin(), std::lower_bound(sorted.begin(), sorted.end(), options.window->front()));
-  }
+  GroupedValues grouped(values);
+  if (options.window) grouped.keep_between(options.window->front(), options.window->back());
+  const std::vector<double>& sorted = grouped.sorted();
   if (static_cast<double>(sorted.size()) < kLeastInPeak)
     return with_status(
         peak, PeakStatus::too_few,
@@ -313,7 +310,7 @@ Photopeak fit_photopeak(std::span<const double> values, const PhotopeakOptions& 
     return with_status(peak, PeakStatus::not_converged,
                        fmt::format("the fit of the peak near {:.4g} did not converge", place->position));
   }
-  leave_out_groups(sorted, options, peak.fit);
+  leave_out_groups(grouped, *place, options, peak.fit);
   const PeakModel& model = peak.fit.model;
   const double margin_above = (sorted.back() - model.position) / model.sigma;
   const double margin_below = (model.position - sorted.front()) / model.sigma;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "scintray/analysis/spectrum/detail/jackknife.hpp"
+#include "scintray/analysis/spectrum/detail/grouped_values.hpp"
 #include "scintray/core/statistics.hpp"
 
 namespace scintray::analysis {
@@ -60,21 +60,22 @@ void fit_core(std::span<const double> sorted, Spread& spread) {
 }
 
 /// Error of the Gaussian's width by leaving out groups.
-void leave_out_groups(std::span<const double> sorted, Spread& spread) {
+void leave_out_groups(const GroupedValues& values, Spread& spread) {
   const auto width_of = [](std::span<const double> kept) -> std::optional<std::vector<double>> {
     Spread without;
     fit_core(kept, without);
     if (!without.fit.converged) return std::nullopt;
     return std::vector{without.gaussian_fwhm.value};
   };
-  if (const auto errors = jackknife_errors(sorted, {}, width_of))
+  if (const auto errors = jackknife_errors(values, {}, width_of))
     spread.gaussian_fwhm.error = errors->front();
 }
 
 }  // namespace
 
 Spread spread_of(std::span<const double> values) {
-  const std::vector<double> sorted = sorted_finite(values);
+  const GroupedValues grouped(values);
+  const std::vector<double>& sorted = grouped.sorted();
   Spread spread;
   spread.count = sorted.size();
   core::Moments moments;
@@ -87,7 +88,7 @@ Spread spread_of(std::span<const double> values) {
   spread.quantile_fwhm = {quantile_fwhm(sorted), error_by_order_statistics(sorted)};
   if (static_cast<double>(sorted.size()) >= kLeastInCore && spread.quantile_fwhm.value > 0.0)
     fit_core(sorted, spread);
-  if (spread.fit.converged) leave_out_groups(sorted, spread);
+  if (spread.fit.converged) leave_out_groups(grouped, spread);
   return spread;
 }
 
