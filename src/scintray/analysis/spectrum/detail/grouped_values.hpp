@@ -19,8 +19,9 @@ class GroupedValues {
   const std::vector<double>& sorted() const { return sorted_; }
   /// Leaves out the values outside of two.
   void keep_between(double low, double high);
-  /// A random division of the places into groups of one size, give or take one. @returns  the group of each
-  /// of sorted()
+  /// A random division of the places, not of the ranks, into groups of one size, give or take one: one of
+  /// ranks would be the same in all lists of one length, and so would what it is off by. @returns  the group
+  /// of each of sorted()
   std::vector<unsigned char> division(std::size_t groups, std::uint64_t number) const;
 
  private:
