@@ -1,8 +1,10 @@
-/// fuzz_driver [TARGET [N [SEED]]]: N damaged files at the reader TARGET, by number from SEED; without
-/// arguments the names of all readers. They are read by child processes, with 10 s for each and 1 GB for all
-/// that one holds. Where a reader has a process of its own for a library that may crash, it does that work in
-/// place here, as this process is such a one; a file that ends it is given to the reader as users have it.
-/// What ends that, too, is written to the file fuzz-TARGET-SEED-NUMBER. Exit code 1 if there was any.
+/// fuzz_driver [TARGET [N [SEED [FIRST]]]]: N damaged files at the reader TARGET, by number (from FIRST on,
+/// 0 if not stated) from SEED; without arguments the names of all readers. Every 50,000 are stated, so that
+/// what ends early can go on from there. They are read by child processes, with 10 s for each and 1 GB for
+/// all that one holds. Where a reader has a process of its own for a library that may crash, it does that
+/// work in place here, as this process is such a one; a file that ends it is given to the reader as users
+/// have it. What ends that, too, is written to the file fuzz-TARGET-SEED-NUMBER. Exit code 1 if there was
+/// any.
 
 #include <sys/mman.h>
 #include <sys/resource.h>
@@ -39,7 +41,7 @@ using namespace scintray::fuzz;
 
 constexpr unsigned kSeconds = 10, kMostWaiting_s = 300;
 constexpr rlim_t kBytes = rlim_t{1} << 30;
-constexpr std::uint64_t kPerChild = 2000;
+constexpr std::uint64_t kPerChild = 2000, kPerStatement = 50'000;
 
 std::vector<Entry> all_entries() {
   std::vector<Entry> all;
@@ -87,9 +89,16 @@ class Fuzzer {
         at_(*new (shared()) std::atomic<std::uint64_t>(0)) {}
 
   /// Exit code of the program.
-  int run(std::uint64_t count) {
-    while (at_ < count) {
-      const std::uint64_t last = std::min<std::uint64_t>(count, at_ + kPerChild);
+  int run(std::uint64_t first, std::uint64_t count) {
+    const std::uint64_t end = first + count;
+    at_ = first;
+    for (std::uint64_t stated = first + kPerStatement; at_ < end;) {
+      if (at_ >= stated) {
+        std::fprintf(stderr, "%s: %llu to %llu read, %d found\n", entry_.name, number_of(first),
+                     number_of(at_), found_);
+        stated += kPerStatement;
+      }
+      const std::uint64_t last = std::min<std::uint64_t>(end, at_ + kPerChild);
       if (ends_well(last, OwnProcesses::in_place)) continue;
       const std::uint64_t number = at_;
       if (ends_well(number + 1, OwnProcesses::as_users_have_them))
@@ -98,13 +107,15 @@ class Fuzzer {
         keep(number);
       at_ = number + 1;
     }
-    std::printf("%-20s %10llu inputs from seed %llu, %llu ended a process of the reader's own, %d found\n",
-                entry_.name, static_cast<unsigned long long>(count), static_cast<unsigned long long>(seed_),
-                static_cast<unsigned long long>(withstood_), found_);
+    std::printf(
+        "%-20s %10llu inputs from %llu on of seed %llu, %llu ended a process of the reader's own, %d found\n",
+        entry_.name, number_of(count), number_of(first), number_of(seed_), number_of(withstood_), found_);
     return found_ > 0 ? 1 : 0;
   }
 
  private:
+  static unsigned long long number_of(std::uint64_t number) { return number; }
+
   static void* shared() {
     void* memory = mmap(nullptr, sizeof(std::atomic<std::uint64_t>), PROT_READ | PROT_WRITE,
                         MAP_SHARED | MAP_ANONYMOUS, -1, 0);
@@ -153,7 +164,8 @@ int main(int count, char** words) {
       std::puts(entry.name);
     else if (std::strcmp(entry.name, words[1]) == 0)
       return Fuzzer(entry, count > 3 ? std::strtoull(words[3], nullptr, 10) : 1)
-          .run(count > 2 ? std::strtoull(words[2], nullptr, 10) : 10'000);
+          .run(count > 4 ? std::strtoull(words[4], nullptr, 10) : 0,
+               count > 2 ? std::strtoull(words[2], nullptr, 10) : 10'000);
   }
   return count < 2 ? 0 : 2;
 }

@@ -15,7 +15,7 @@ constexpr core::Word<WorkKind> kSources[] = {
     {"scintray/core/elementary", WorkKind::elementary},
     {"scintray/scene/accelerator", WorkKind::ray_query},
     {"scintray/scene/", WorkKind::propagation},
-    {"scintray/transport/in_order", WorkKind::other},
+    {"scintray/core/in_order", WorkKind::other},
     {"scintray/transport/", WorkKind::propagation},
     {"scintray/optics/", WorkKind::surface},
     {"scintray/source/", WorkKind::emission},

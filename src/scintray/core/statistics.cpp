@@ -1,6 +1,8 @@
 #include "scintray/core/statistics.hpp"
 
 #include <algorithm>
+#include <boost/math/policies/policy.hpp>
+#include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -10,36 +12,12 @@ namespace scintray::core {
 
 namespace {
 
-/// Regularised upper incomplete gamma function Q(a, x), by series or continued fraction
-/// (Numerical Recipes 3rd ed., section 6.2).
-double upper_gamma(double a, double x) {
-  if (x <= 0.0) return 1.0;
-  if (std::isinf(x)) return 0.0;
-  const double scale = std::exp(-x + a * std::log(x) - std::lgamma(a));
-  if (x < a + 1.0) {
-    double term = 1.0 / a, sum = term;
-    for (double n = a + 1.0; std::abs(term) > std::abs(sum) * 1e-15; n += 1.0) {
-      term *= x / n;
-      sum += term;
-    }
-    return 1.0 - sum * scale;
-  }
-  constexpr double kTiny = std::numeric_limits<double>::min() / std::numeric_limits<double>::epsilon();
-  double b = x + 1.0 - a, c = 1.0 / kTiny, d = 1.0 / b, h = d;
-  for (int i = 1; i < 10000; ++i) {
-    const double an = -i * (i - a);
-    b += 2.0;
-    d = an * d + b;
-    if (std::abs(d) < kTiny) d = kTiny;
-    c = b + an / c;
-    if (std::abs(c) < kTiny) c = kTiny;
-    d = 1.0 / d;
-    const double factor = d * c;
-    h *= factor;
-    if (std::abs(factor - 1.0) < 1e-15) break;
-  }
-  return scale * h;
-}
+/// Numbers out of range give NaN or infinity, and no exception.
+using Quiet = boost::math::policies::policy<
+    boost::math::policies::domain_error<boost::math::policies::ignore_error>,
+    boost::math::policies::pole_error<boost::math::policies::ignore_error>,
+    boost::math::policies::overflow_error<boost::math::policies::ignore_error>,
+    boost::math::policies::evaluation_error<boost::math::policies::ignore_error>>;
 
 }  // namespace
 
@@ -77,7 +55,8 @@ double sigmas(const Estimate& a, const Estimate& b) {
 }
 
 double chi_square_p_value(double chi2, double degrees) {
-  return degrees > 0.0 ? upper_gamma(0.5 * degrees, 0.5 * chi2) : 1.0;
+  if (!(degrees > 0.0) || chi2 <= 0.0) return 1.0;
+  return boost::math::gamma_q(0.5 * degrees, 0.5 * chi2, Quiet());
 }
 
 ChiSquare chi_square_test(std::span<const std::uint64_t> observed, std::span<const double> expected) {

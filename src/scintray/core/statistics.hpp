@@ -52,7 +52,7 @@ double jackknife_error(std::span<const double> without);
 double sigmas(const Estimate& a, const Estimate& b);
 
 /// Probability that a chi-square with `degrees` degrees of freedom exceeds `chi2`: the regularised
-/// upper incomplete gamma function Q(degrees/2, chi2/2) (Numerical Recipes 3rd ed., section 6.2).
+/// upper incomplete gamma function Q(degrees/2, chi2/2), by Boost.
 double chi_square_p_value(double chi2, double degrees);
 
 struct ChiSquare {

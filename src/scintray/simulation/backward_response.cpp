@@ -5,8 +5,8 @@
 #include <map>
 #include <optional>
 
+#include "scintray/core/in_order.hpp"
 #include "scintray/simulation/detail/journal_pieces.hpp"
-#include "scintray/transport/in_order.hpp"
 
 namespace scintray::simulation {
 
@@ -46,8 +46,8 @@ std::vector<double> volumes_of(const scene::Scene& scene, const ResponseGrid& gr
   const auto of = [&](std::uint64_t cell) {
     return grid.pitch.prod() * share_within(scene, grid.region, cell_box(grid, cell));
   };
-  transport::work_in_order(grid.size(), threads, nullptr, of,
-                           [&](std::uint64_t cell, double volume) { volumes[cell] = volume; });
+  core::work_in_order(grid.size(), threads, nullptr, of,
+                      [&](std::uint64_t cell, double volume) { volumes[cell] = volume; });
   return volumes;
 }
 
@@ -129,8 +129,7 @@ std::optional<std::vector<ChannelLight>> trace_medium(const BackwardTracer& trac
     work.done += photons / pieces;
     if (hooks.progress) hooks.progress(std::min(work.done, work.total), work.total);
   };
-  const std::uint64_t done =
-      transport::work_in_order(channels * pieces, run.threads, hooks.stop, trace, collect);
+  const std::uint64_t done = core::work_in_order(channels * pieces, run.threads, hooks.stop, trace, collect);
   if (done < channels * pieces) return std::nullopt;
   return lights;
 }

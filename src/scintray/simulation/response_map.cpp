@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "scintray/core/in_order.hpp"
 #include "scintray/core/sampling.hpp"
 #include "scintray/simulation/detail/backward_response.hpp"
 #include "scintray/simulation/detail/journal_pieces.hpp"
-#include "scintray/transport/in_order.hpp"
 #include "scintray/transport/step.hpp"
 
 namespace scintray::simulation {
@@ -188,7 +188,7 @@ bool trace_forward(const scene::Scene& scene, const tally::ReadoutChannels& chan
                         response.delays_ns);
     if (hooks.progress) hooks.progress(address + 1, total);
   };
-  return transport::work_in_order(total, run.threads, hooks.stop, trace, collect) == total;
+  return core::work_in_order(total, run.threads, hooks.stop, trace, collect) == total;
 }
 
 /// Whether the map is traced backward. @throws InputError where that is requested and not exact

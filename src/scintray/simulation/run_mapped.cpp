@@ -3,10 +3,10 @@
 #include <limits>
 
 #include "scintray/core/count_sampling.hpp"
+#include "scintray/core/in_order.hpp"
 #include "scintray/simulation/mapped_response.hpp"
 #include "scintray/simulation/run_point.hpp"
 #include "scintray/tally/event_tally.hpp"
-#include "scintray/transport/in_order.hpp"
 
 namespace scintray::simulation {
 
@@ -106,8 +106,7 @@ tally::PointResult run_mapped(const scene::Scene& scene, const source::LightSour
     if (hooks.events) hooks.events(tally.events());
     if (hooks.progress) hooks.progress(sums.energy.events);
   };
-  const std::uint64_t made =
-      transport::work_in_order(maker.pieces(), settings.threads, hooks.stop, make, collect);
+  const std::uint64_t made = core::work_in_order(maker.pieces(), settings.threads, hooks.stop, make, collect);
   sums.counts.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   tally::PointResult total = sums.result();
   if (hooks.range) hooks.range({0, made}, std::move(sums));

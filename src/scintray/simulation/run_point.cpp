@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "scintray/core/in_order.hpp"
 #include "scintray/tally/block_tally.hpp"
 #include "scintray/tally/event_tally.hpp"
 #include "scintray/transport/batch.hpp"
-#include "scintray/transport/in_order.hpp"
 #include "scintray/transport/step.hpp"
 
 namespace scintray::simulation {
@@ -325,8 +325,7 @@ tally::BlockRange trace_blocks(const scene::Scene& scene, const source::LightSou
     is_enough = true;
     ended = true;
   };
-  transport::work_in_order(blocks.count(), settings.threads, hooks.enough ? &ended : hooks.stop, trace,
-                           collect);
+  core::work_in_order(blocks.count(), settings.threads, hooks.enough ? &ended : hooks.stop, trace, collect);
   collector.end_range();
   return {blocks.first, blocks.first + kept};
 }

@@ -1,12 +1,11 @@
 #include "scintray/analysis/spectrum/detail/grouped_values.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <utility>
 
+#include "scintray/core/in_order.hpp"
 #include "scintray/core/philox.hpp"
 #include "scintray/core/statistics.hpp"
 
@@ -46,19 +45,24 @@ void GroupedValues::keep_between(double low, double high) {
   place_ = {place_.begin() + first, place_.begin() + last};
 }
 
-std::vector<unsigned char> GroupedValues::division(std::size_t groups, std::uint64_t number) const {
+std::vector<std::vector<unsigned char>> GroupedValues::divided(const Divisions& divisions) const {
   // By order of place, so that it depends on the list alone.
-  std::vector<std::size_t> order(sorted_.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return place_[a] < place_[b]; });
-  core::Rng rng(number, core::StreamKind::other, sorted_.size());
-  std::vector<unsigned char> group(sorted_.size());
-  for (std::size_t left = order.size(); left > 0; --left) {
-    const auto at = std::min(static_cast<std::size_t>(rng.uniform() * static_cast<double>(left)), left - 1);
-    group[order[at]] = static_cast<unsigned char>(left % groups);
-    order[at] = order[left - 1];
+  std::vector<std::size_t> by_place(sorted_.size());
+  std::iota(by_place.begin(), by_place.end(), std::size_t{0});
+  std::sort(by_place.begin(), by_place.end(),
+            [&](std::size_t a, std::size_t b) { return place_[a] < place_[b]; });
+  std::vector<std::vector<unsigned char>> group_of;
+  for (std::size_t number = 0; number < divisions.number; ++number) {
+    core::Rng rng(number, core::StreamKind::other, sorted_.size());
+    std::vector<std::size_t> order = by_place;
+    std::vector<unsigned char>& group = group_of.emplace_back(sorted_.size());
+    for (std::size_t left = order.size(); left > 0; --left) {
+      const auto at = std::min(static_cast<std::size_t>(rng.uniform() * static_cast<double>(left)), left - 1);
+      group[order[at]] = static_cast<unsigned char>(left % divisions.groups);
+      order[at] = order[left - 1];
+    }
   }
-  return group;
+  return group_of;
 }
 
 std::optional<std::vector<double>> jackknife_errors(
@@ -66,13 +70,15 @@ std::optional<std::vector<double>> jackknife_errors(
     const std::function<std::optional<std::vector<double>>(std::span<const double>)>& statistics) {
   const std::vector<double>& sorted = values.sorted();
   if (sorted.size() < kLeastPerGroup * divisions.groups) return std::nullopt;
-  std::vector<std::optional<std::vector<double>>> results(divisions.number * divisions.groups);
-  tbb::parallel_for(std::size_t{0}, divisions.number, [&](std::size_t division) {
-    const std::vector<unsigned char> group = values.division(divisions.groups, division);
-    tbb::parallel_for(std::size_t{0}, divisions.groups, [&](std::size_t left_out) {
-      results[division * divisions.groups + left_out] = statistics(without(sorted, group, left_out));
-    });
-  });
+  const std::vector<std::vector<unsigned char>> group_of = values.divided(divisions);
+  using Result = std::optional<std::vector<double>>;
+  std::vector<Result> results;
+  core::work_in_order(
+      divisions.number * divisions.groups, 0, nullptr,
+      [&](std::uint64_t k) {
+        return statistics(without(sorted, group_of[k / divisions.groups], k % divisions.groups));
+      },
+      [&](std::uint64_t, Result& result) { results.push_back(std::move(result)); });
   if (std::any_of(results.begin(), results.end(), [](const auto& result) { return !result; }))
     return std::nullopt;
   std::vector<double> errors(results.front()->size()), column(divisions.groups);

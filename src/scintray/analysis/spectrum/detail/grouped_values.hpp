@@ -10,6 +10,11 @@
 
 namespace scintray::analysis {
 
+/// How often a sample is divided, and into how many groups.
+struct Divisions {
+  std::size_t number = 1, groups = 32;
+};
+
 /// The finite ones of a list in rising order, each with its place in the list.
 class GroupedValues {
  public:
@@ -19,19 +24,14 @@ class GroupedValues {
   const std::vector<double>& sorted() const { return sorted_; }
   /// Leaves out the values outside of two.
   void keep_between(double low, double high);
-  /// A random division of the places, not of the ranks, into groups of one size, give or take one: one of
-  /// ranks would be the same in all lists of one length, and so would what it is off by. @returns  the group
-  /// of each of sorted()
-  std::vector<unsigned char> division(std::size_t groups, std::uint64_t number) const;
+  /// Random divisions of the places, not of the ranks, into groups of one size, give or take one: those of
+  /// ranks would be the same in all lists of one length, and so would what they are off by. @returns  for
+  /// each division the group of each of sorted()
+  std::vector<std::vector<unsigned char>> divided(const Divisions& divisions) const;
 
  private:
   std::vector<double> sorted_;
   std::vector<std::size_t> place_;
-};
-
-/// How often a sample is divided, and into how many groups.
-struct Divisions {
-  std::size_t number = 1, groups = 32;
 };
 
 /// Standard errors of what `statistics` makes of rising values, from its results without one of the groups

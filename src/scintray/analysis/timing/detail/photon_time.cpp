@@ -3,6 +3,7 @@
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_sf_erf.h>
+#include <gsl/gsl_sf_gamma.h>
 
 #include <algorithm>
 #include <cmath>
@@ -175,7 +176,7 @@ double time_information_of_photon(const PhotonTime& time, double photons, std::s
     if (!(p > 0.0) || !(share > 0.0)) return 0.0;
     const double expected = photons * share;
     const double density =
-        photons * p * std::exp((order - 1.0) * std::log(expected) - expected - std::lgamma(order));
+        photons * p * std::exp((order - 1.0) * std::log(expected) - expected - gsl_sf_lngamma(order));
     const double slope = time.slope(t) / p - photons * p + (order - 1.0) * p / share;
     return density * slope * slope;
   });

@@ -7,7 +7,7 @@
 #include <memory>
 #include <type_traits>
 
-namespace scintray::transport {
+namespace scintray::core {
 
 namespace detail {
 
@@ -21,7 +21,7 @@ std::uint64_t work_in_order(std::uint64_t count, int threads, const std::atomic<
 /// Number of pieces of work done: work(number) is called for 0 to count - 1 on many threads, and
 /// collect(number, result) in the order of the numbers, by one thread at a time. Few results are held at
 /// once, so that memory is bounded.
-/// @param threads  0: all cores
+/// @param threads  0: all cores, or as many as the work has that this is called from
 /// @param stop     when set from outside, work in progress is finished and no more started; may be null
 /// @return number of pieces collected, from the first on
 template <typename Work, typename Collect>
@@ -36,4 +36,4 @@ std::uint64_t work_in_order(std::uint64_t count, int threads, const std::atomic<
       [&collect](std::uint64_t number, void* result) { collect(number, *static_cast<Result*>(result)); });
 }
 
-}  // namespace scintray::transport
+}  // namespace scintray::core

@@ -1,4 +1,4 @@
-#include "scintray/transport/in_order.hpp"
+#include "scintray/core/in_order.hpp"
 
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
@@ -24,7 +24,7 @@
 #define SCINTRAY_UNSEEN_BY_THREAD_SANITIZER
 #endif
 
-namespace scintray::transport::detail {
+namespace scintray::core::detail {
 
 namespace {
 
@@ -102,7 +102,7 @@ std::uint64_t work_in_order(std::uint64_t count, int threads, const std::atomic<
                             const std::function<std::shared_ptr<void>(std::uint64_t)>& work,
                             const std::function<void(std::uint64_t, void*)>& collect) {
   constexpr std::size_t kPiecesPerThread = 4;
-  tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
+  tbb::task_arena arena(threads > 0 ? threads : tbb::this_task_arena::max_concurrency());
   const std::size_t most_under_way = kPiecesPerThread * static_cast<std::size_t>(arena.max_concurrency());
   Stages stages(count, most_under_way, stop, work, collect);
   const auto begin_next = [&](tbb::flow_control& control)
@@ -120,4 +120,4 @@ std::uint64_t work_in_order(std::uint64_t count, int threads, const std::atomic<
   return stages.taken();
 }
 
-}  // namespace scintray::transport::detail
+}  // namespace scintray::core::detail
