@@ -423,6 +423,51 @@ TEST_CASE("GDML: skins, borders and Geant4's finishes become surfaces and contac
   CHECK(written(draft(text, options)).parts[3].surface.name == "polished");
 }
 
+TEST_CASE(
+    "GDML: the copies of two volumes have a contact within each of their mothers, and too many are refused") {
+  GdmlText text;
+  text.solids = R"(<box name="it" x="4" y="4" z="4"/><box name="block" x="4" y="4" z="8"/>
+<opticalsurface name="mirror" model="glisur" finish="polished" type="dielectric_metal" value="1"/>)";
+  const auto border = [](const std::string& from, const std::string& to) {
+    return "<bordersurface name=\"s\" surfaceproperty=\"mirror\"><physvolref ref=\"" + from +
+           "\"/><physvolref ref=\"" + to + "\"/></bordersurface>\n";
+  };
+  const std::string structure = gdml_volume("a", "it") + gdml_volume("b", "it") +
+                                gdml_volume("block_v", "block", "Vacuum",
+                                            gdml_placed("pa", "a", R"(<position z="-2"/>)") +
+                                                gdml_placed("pb", "b", R"(<position z="2"/>)"));
+  const auto blocks = [](const std::string& last) {
+    return "<loop for=\"i\" to=\"" + last + "\" step=\"1\">" +
+           gdml_placed("one[i]", "block_v", R"(<position x="4*i"/>)") + "</loop>";
+  };
+  text.structure = structure + border("pa", "pb") + border("one_0", "pb");
+  text.daughters = blocks("2");
+  const SceneSpec spec = written(draft(text));
+  REQUIRE(spec.parts.size() == 9);
+  const auto mother = [&](std::size_t part) { return spec.parts.at(part).placement.translate.x(); };
+  std::size_t between_blocks = 0, with_block = 0;
+  const auto part_of = [&](const std::string& name) {
+    return static_cast<std::size_t>(
+        std::find_if(spec.parts.begin(), spec.parts.end(),
+                     [&](const PartSpec& known) { return known.name.name == name; }) -
+        spec.parts.begin());
+  };
+  for (const ContactSpec& contact : spec.contacts) {
+    const std::size_t first = part_of(contact.between[0].name), second = part_of(contact.between[1].name);
+    between_blocks += mother(first) != mother(second);
+    with_block += contact.between[0].name.starts_with("one");
+  }
+  CHECK(spec.contacts.size() == 3 + 1);
+  CHECK(between_blocks == 0);
+  CHECK(with_block == 1);
+
+  text.structure = structure;
+  for (int i = 0; i < 5001; ++i) text.structure += border("pa", "pb");
+  text.daughters = blocks("199");
+  check_contains(complaint(text), {"test.gdml:5022:2: error:", "more than 1000000 pairs of volumes"});
+  check_contains(complaint(text), "use a skin surface");
+}
+
 TEST_CASE("GDML: what cannot be done is refused with its name and line") {
   const auto of = [](const std::string& solid_text) { return complaint(gdml_solid(solid_text)); };
   check_contains(of(R"(<knot name="it" x="3" y="3" z="3"/>)"),

@@ -41,6 +41,7 @@ class SceneMaker {
   SceneDraft make(const std::string& file_name) {
     read_media();
     name_parts();
+    find_copies_and_skins();
     find_sensors();
     std::string parts;
     for (std::size_t i = 0; i < structure_.placed.size(); ++i) {
@@ -68,8 +69,7 @@ class SceneMaker {
 
  private:
   void note(const std::string& text) {
-    if (std::find(draft_.notes.begin(), draft_.notes.end(), text) == draft_.notes.end())
-      draft_.notes.push_back(text);
+    if (noted_.insert(text).second) draft_.notes.push_back(text);
   }
 
   /// Why the scene has no parts.
@@ -127,13 +127,28 @@ class SceneMaker {
 
   void name_parts() {
     std::set<std::string> taken;
+    std::map<std::string, int> next_number;
     for (const PlacedVolume& placed : structure_.placed) {
       const std::string base = part_name(placed.physvol);
       std::string name = base;
-      for (int number = 2; !taken.insert(name).second; ++number) name = base + "_" + std::to_string(number);
+      int& number = next_number.try_emplace(base, 2).first->second;
+      while (!taken.insert(name).second) name = base + "_" + std::to_string(number++);
       names_.push_back(name);
     }
     left_out_.assign(names_.size(), false);
+  }
+
+  void find_copies_and_skins() {
+    for (std::size_t i = 0; i < structure_.placed.size(); ++i) {
+      const PlacedVolume& placed = structure_.placed[i];
+      Copies& copies = copies_[placed.physvol];
+      if (!copies.all.empty() && placed.placement != structure_.placed[copies.all.front()].placement)
+        continue;
+      copies.all.push_back(i);
+      copies.by_mother[placed.mother].push_back(i);
+    }
+    for (const SurfacePlacement& surface : structure_.surfaces)
+      if (!surface.volume.empty()) skins_.try_emplace(surface.volume, &surface);
   }
 
   /// Keys of the shape: a box and what has a shape of its own as they are, everything else as a mesh beside
@@ -197,43 +212,62 @@ class SceneMaker {
     return skin ? text + "surface = " + toml_string(use_surface(*skin)) + "\n" : text;
   }
 
-  /// The skin surface of a volume; of several the first, as G4LogicalSkinSurface keeps it.
+  /// The skin surface of a volume, or null; of several the first, as G4LogicalSkinSurface keeps it.
   const SurfacePlacement* skin_of(const std::string& volume) const {
-    for (const SurfacePlacement& surface : structure_.surfaces)
-      if (surface.volume == volume) return &surface;
-    return nullptr;
+    const auto found = skins_.find(volume);
+    return found == skins_.end() ? nullptr : found->second;
   }
+
+  /// The copies of a physical volume, in rising order.
+  struct Copies {
+    std::vector<std::size_t> all;
+    std::map<std::optional<std::size_t>, std::vector<std::size_t>> by_mother;
+  };
 
   /// The copies of the physical volume of a name: of several of one name the first, as G4PhysicalVolumeStore
   /// returns it.
-  std::vector<std::size_t> copies_of(const std::string& physvol) const {
-    std::vector<std::size_t> copies;
-    for (std::size_t i = 0; i < names_.size(); ++i)
-      if (structure_.placed[i].physvol == physvol &&
-          (copies.empty() || structure_.placed[i].placement == structure_.placed[copies.front()].placement))
-        copies.push_back(i);
-    return copies;
+  const Copies& copies_of(const std::string& physvol) const {
+    static const Copies none;
+    const auto found = copies_.find(physvol);
+    return found == copies_.end() ? none : found->second;
   }
 
-  bool may_touch(std::size_t a, std::size_t b) const {
-    const auto &one = structure_.placed[a], &other = structure_.placed[b];
-    return one.mother == b || other.mother == a || one.mother == other.mother;
+  /// Calls visit(a, b) for all copies a of a physical volume and b of another that may touch: a mother and
+  /// her daughter, or two daughters of one mother.
+  void visit_neighbours(const Copies& from, const Copies& to,
+                        const std::function<void(std::size_t, std::size_t)>& visit) const {
+    if (from.all.size() > to.all.size())
+      return visit_neighbours(to, from, [&visit](std::size_t b, std::size_t a) { visit(a, b); });
+    for (const std::size_t a : from.all) {
+      const std::optional<std::size_t> mother = structure_.placed[a].mother;
+      if (mother && std::binary_search(to.all.begin(), to.all.end(), *mother)) visit(a, *mother);
+      for (const std::optional<std::size_t>& of : {std::optional(a), mother})
+        if (const auto found = to.by_mother.find(of); found != to.by_mother.end())
+          for (const std::size_t b : found->second)
+            if (a != b) visit(a, b);
+    }
   }
 
   /// [[contact]]s of all borders, with the surfaces of both directions.
   std::string border_contacts() {
+    constexpr std::size_t kMostPairs = 1'000'000;
     std::map<std::pair<std::size_t, std::size_t>, std::array<const SurfacePlacement*, 2>> pairs;
+    std::size_t visited = 0;
     for (const SurfacePlacement& surface : structure_.surfaces) {
       if (!surface.volume.empty()) continue;
       bool used = false;
-      for (const std::size_t a : copies_of(surface.from))
-        for (const std::size_t b : copies_of(surface.to)) {
-          if (a == b || !may_touch(a, b) || left_out_[a] || left_out_[b]) continue;
-          used = true;
-          auto& both = pairs.try_emplace(std::minmax(a, b)).first->second;
-          const SurfacePlacement*& own = both[a < b ? 0 : 1];
-          if (!own) own = &surface;
-        }
+      visit_neighbours(copies_of(surface.from), copies_of(surface.to), [&](std::size_t a, std::size_t b) {
+        if (left_out_[a] || left_out_[b]) return;
+        if (++visited > kMostPairs)
+          file_.reject(surface.element,
+                       "more than " + std::to_string(kMostPairs) + " pairs of volumes have a border surface",
+                       "a border surface between copies in one mother is for each pair of them; use a skin "
+                       "surface, or place the copies in mothers of their own");
+        used = true;
+        auto& both = pairs.try_emplace(std::minmax(a, b)).first->second;
+        const SurfacePlacement*& own = both[a < b ? 0 : 1];
+        if (!own) own = &surface;
+      });
       if (!used)
         note("border surface " + surface.property +
              ": it is not between two volumes of which one is in the "
@@ -273,9 +307,9 @@ class SceneMaker {
       const std::string efficiency = efficiency_of(surface);
       if (efficiency.empty()) continue;
       if (surface.volume.empty()) {
-        std::vector<std::size_t> behind = copies_of(surface.to);
-        if (behind.empty()) behind = copies_of(surface.from);
-        for (const std::size_t i : behind) give(i, surface, efficiency);
+        const Copies& behind = copies_of(surface.to);
+        for (const std::size_t i : behind.all.empty() ? copies_of(surface.from).all : behind.all)
+          give(i, surface, efficiency);
         continue;
       }
       for (std::size_t i = 0; i < names_.size(); ++i)
@@ -383,6 +417,9 @@ class SceneMaker {
   SceneDraft draft_;
   std::map<std::string, ImportedMedium> media_;
   std::vector<std::string> names_;
+  std::map<std::string, Copies> copies_;                  ///< by the name of the physical volume
+  std::map<std::string, const SurfacePlacement*> skins_;  ///< by the name of the volume
+  std::set<std::string> noted_;
   std::vector<bool> left_out_;
   std::vector<std::string> sensors_;  ///< of the parts; empty: none
   std::set<std::string> used_media_, defined_surfaces_, defined_sensors_;
