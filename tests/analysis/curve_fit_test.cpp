@@ -112,6 +112,74 @@ TEST_CASE("Errors of fitted parameters are right: pulls of 300 toys have mean 0 
   CHECK(std::abs(chi2.mean().value - 6.0) < kSigmas * std::sqrt(12.0 / kToys));
 }
 
+TEST_CASE(
+    "Of a length that is known to a third, the inverse has pulls of mean 0 and width 1, the length not") {
+  const std::vector<double> truth{0.6, 40.0};
+  const auto parameters = [](FitVariable variable) {
+    return std::vector<FitParameter>{{"amplitude", 0.4, 0.05, 1.0}, {"length", 60.0, 5.0, 1000.0, variable}};
+  };
+  constexpr int kToys = 300;
+  Pulls amplitude, inverse, length;
+  Moments covered;
+  for (int toy = 0; toy < kToys; ++toy) {
+    const auto seed = static_cast<std::uint64_t>(toy);
+    const ToyDetector detector(kDepths, 2000, seed, falling);
+    const MeasuredCurve measured = measured_curve(falling, truth, 1.0, 0.06, seed);
+    const CurveFit fit = fit_curve(measured, parameters(FitVariable::inverse), detector.model());
+    REQUIRE(fit.has_errors);
+    const FittedParameter& found = fit.parameters[1];
+    CHECK(found.variable.value == doctest::Approx(1.0 / found.value.value));
+    CHECK(found.value.error == doctest::Approx(found.variable.error * found.value.value * found.value.value));
+    CHECK(found.interval_low <= found.value.value);
+    CHECK(found.value.value <= found.interval_high);
+    CHECK(found.interval_high <= 1000.0);
+    CHECK(fit.correlation(0, 1) < 0.0);  // as of the length
+    amplitude.add(fit.parameters[0].value, truth[0]);
+    inverse.add(found.variable, 1.0 / truth[1]);
+    covered.add(found.interval_low < truth[1] && truth[1] < found.interval_high ? 1.0 : 0.0);
+    length.add(fit_curve(measured, parameters(FitVariable::value), detector.model()).parameters[1].value,
+               truth[1]);
+  }
+  for (const Pulls* pulls : {&amplitude, &inverse}) {
+    CHECK(std::abs(pulls->mean().value) < kSigmas * pulls->mean().error);
+    CHECK(std::abs(pulls->width().value - 1.0) < kSigmas * pulls->width().error);
+  }
+  CHECK(std::abs(covered.mean().value - 0.683) < kSigmas * covered.mean().error);
+  CHECK(length.width().value - 1.0 > kSigmas * length.width().error);
+}
+
+TEST_CASE("The inverse of a parameter has the bounds of the parameter") {
+  const ToyDetector detector(kDepths, 20'000, 5, falling);
+  const auto fitted = [&](const std::vector<double>& truth, double low, double high) {
+    return fit_curve(
+        measured_curve(falling, truth, 1.0, 0.003, 5),
+        {{"amplitude", 0.4, 0.05, 1.0}, {"length", 0.5 * (low + high), low, high, FitVariable::inverse}},
+        detector.model());
+  };
+  const CurveFit above = fitted({0.6, 30.0}, 3.0, 20.0);
+  CHECK(above.parameters[1].at_high);
+  CHECK_FALSE(above.parameters[1].at_low);
+  CHECK(above.parameters[1].interval_high == doctest::Approx(20.0));
+  const CurveFit below = fitted({0.6, 5.0}, 8.0, 60.0);
+  CHECK(below.parameters[1].at_low);
+  CHECK(below.parameters[1].value.value >= 8.0);
+  const CurveFit undetermined =
+      fit_curve(measured_curve(falling, {0.6, 500.0}, 1.0, 0.3, 5),
+                {{"amplitude", 0.4, 0.05, 1.0}, {"length", 700.0, 400.0, 1000.0, FitVariable::inverse}},
+                detector.model());
+  CHECK_FALSE(undetermined.parameters[1].determined);
+  REQUIRE_FALSE(undetermined.warnings.empty());
+  CHECK(
+      std::any_of(undetermined.warnings.begin(), undetermined.warnings.end(), [](const std::string& warning) {
+        return warning.find("does not determine length: the error of its inverse") != std::string::npos &&
+               warning.find("between 0.001 and 0.0025") != std::string::npos;
+      }));
+  check_contains(complaint_of([&] {
+                   fitted({0.6, 5.0}, -1.0, 60.0);
+                 }),
+                 {"the inverse of length is fitted", "lower bound is -1"});
+}
+
 TEST_CASE("Errors and chi-square are right, too, where photon paths soon diverge") {
   // Each photon's number turns with the parameter at a speed of its own, once round in some errors: noise
   // that common random numbers hardly lessen, and that a search would follow to a curve that is too good.

@@ -95,6 +95,28 @@ TEST_CASE("[fit] is read, with units as they are written") {
   CHECK(reflectance.goniometer->rays == 100000);
 }
 
+TEST_CASE(
+    "Lengths of absorption and scattering are fitted by their inverse, all else as it is, unless stated") {
+  const auto variable = [](const std::string& key, const std::string& low, const std::string& more) {
+    const std::string parameter = "\n[[fit.parameter]]\nkey = \"" + key + "\"\nstart = \"50 mm\"\nlow = \"" +
+                                  low + "\"\nhigh = \"90 mm\"\n" + more;
+    return fit_file(kFitTable + parameter +
+                    "\n[media.crystal]\nindex = { n = 1.82 }\nabsorption = { length = \"60 mm\" }\n"
+                    "scattering = { length = \"256 mm\", kind = \"rayleigh\" }\n")
+        .spec(0)
+        .fit->parameters.back()
+        .variable;
+  };
+  CHECK(variable("media.crystal.absorption.length", "2 mm", "") == FitVariable::inverse);
+  CHECK(variable("media.crystal.scattering.length", "2 mm", "") == FitVariable::inverse);
+  CHECK(variable("media.crystal.absorption.length", "2 mm", "variable = \"value\"\n") == FitVariable::value);
+  const FitSpec fit = *fit_file(kFitTable).spec(0).fit;
+  CHECK(fit.parameters[0].variable == FitVariable::value);
+  check_fit_problem(
+      replaced(kFitTable, "start = 0.4\nlow = 0", "start = 0.4\nvariable = @@\"inverse\"\nlow = 0"),
+      {"the inverse of surfaces.wrapped.mixture.ground.share", "\"low\" is 0"}, "variable = \"value\"");
+}
+
 TEST_CASE("Fitted keys and positions take their values in the scene, over those of sweeps") {
   const SceneFile file = fit_file(kFitTable);
   const FitSpec fit = *file.spec(0).fit;

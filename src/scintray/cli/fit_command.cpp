@@ -58,13 +58,17 @@ Json fit_json(const analysis::FitRecord& record) {
   Json parameters = Json::array(), curve = Json::array();
   for (std::size_t i = 0; i < record.fit.parameters.size(); ++i) {
     const analysis::FittedParameter& fitted = record.fit.parameters[i];
-    parameters.push_back({{"key", record.spec.parameters[i].path.key},
-                          {"unit", record.spec.parameters[i].unit},
-                          {"start", json_of(fitted.parameter.start)},
-                          {"value", json_of(fitted.value.value)},
-                          {"error", json_of(fitted.value.error)},
-                          {"monte_carlo_error", json_of(fitted.monte_carlo_error)},
-                          {"determined", fitted.determined}});
+    parameters.push_back(
+        {{"key", record.spec.parameters[i].path.key},
+         {"unit", record.spec.parameters[i].unit},
+         {"start", json_of(fitted.parameter.start)},
+         {"value", json_of(fitted.value.value)},
+         {"error", json_of(fitted.value.error)},
+         {"monte_carlo_error", json_of(fitted.monte_carlo_error)},
+         {"interval", {json_of(fitted.interval_low), json_of(fitted.interval_high)}},
+         {"variable", core::word_of(scene_file::kFitVariables, record.spec.parameters[i].variable)},
+         {"in_variable", json_of(fitted.variable)},
+         {"determined", fitted.determined}});
   }
   for (std::size_t i = 0; i < record.fit.residual.size(); ++i)
     curve.push_back({{"at", json_of(record.measured.points[i].x)},

@@ -103,6 +103,9 @@ py::list parameters_of(const analysis::FitRecord& record) {
     entry["unit"] = record.spec.parameters.at(i).unit;
     entry["value"] = estimate(of.value);
     entry["monte_carlo_error"] = of.monte_carlo_error;
+    entry["interval"] = py::make_tuple(of.interval_low, of.interval_high);
+    entry["variable"] = core::word_of(scene_file::kFitVariables, of.parameter.variable);
+    entry["in_variable"] = estimate(of.variable);
     entry["start"] = of.parameter.start;
     entry["low"] = of.parameter.low;
     entry["high"] = of.parameter.high;

@@ -88,6 +88,13 @@ KeyPath read_path(const config::TomlTable& table, const std::string& key, const 
   return path;
 }
 
+/// Inverse for lengths of absorption and scattering, as far as their bounds are above 0.
+FitVariable usual_variable(const FitParameterSpec& parameter) {
+  const std::string& key = parameter.path.key;
+  const bool is_path = key.ends_with("absorption.length") || key.ends_with("scattering.length");
+  return is_path && parameter.low > 0.0 ? FitVariable::inverse : FitVariable::value;
+}
+
 FitParameterSpec read_parameter(const config::TomlTable& table) {
   FitParameterSpec parameter;
   parameter.path = read_path(table, "key", "fitted key");
@@ -108,6 +115,11 @@ FitParameterSpec read_parameter(const config::TomlTable& table) {
                              parameter.start, parameter.low, parameter.high),
                  "start within the bounds, not on them: the search begins there");
   }
+  parameter.variable = table.choice("variable", kFitVariables, usual_variable(parameter));
+  table.expect(
+      "variable", parameter.variable == FitVariable::value || parameter.low > 0.0,
+      fmt::format("the inverse of {} is fitted, but \"low\" is {:g}", parameter.label, parameter.low),
+      "give a low above 0, or write variable = \"value\"");
   return parameter;
 }
 

@@ -25,13 +25,22 @@ inline constexpr core::Word<FitQuantity> kFitQuantities[] = {
     {"light_per_keV", FitQuantity::light_per_keV},
     {"reflectance", FitQuantity::reflectance}};
 
+/// Quantity of a parameter in which a fit makes its steps, and in which an error is symmetrical: the one by
+/// which curves change more nearly in proportion. Light falls in proportion to an absorption coefficient, the
+/// inverse of a length, as long as little is lost.
+enum class FitVariable { value, inverse };
+
+inline constexpr core::Word<FitVariable> kFitVariables[] = {{"value", FitVariable::value},
+                                                            {"inverse", FitVariable::inverse}};
+
 /// [[fit.parameter]]. Values are in their unit in the file.
 struct FitParameterSpec {
   KeyPath path;
   std::string label;  ///< heading; the key by default
   double start = 0.0, low = 0.0, high = 0.0;
-  std::string unit;          ///< as written; empty for plain numbers
-  core::FileLocation where;  ///< of the start; place of errors in values
+  std::string unit;                           ///< as written; empty for plain numbers
+  FitVariable variable = FitVariable::value;  ///< inverse by default for lengths of absorption and scattering
+  core::FileLocation where;                   ///< of the start; place of errors in values
 
   /// Setting of the key to a value.
   KeySetting setting(double value) const;

@@ -58,15 +58,17 @@ const char* end_name(analysis::FitEnd end) {
 }
 
 void put_parameters(FitTable table, const analysis::FitRecord& record) {
-  std::vector<std::string> keys, labels, units;
+  std::vector<std::string> keys, labels, units, variables;
   for (const scene_file::FitParameterSpec& p : record.spec.parameters) {
     keys.push_back(p.path.key);
     labels.push_back(p.label);
     units.push_back(p.unit.empty() ? "1" : p.unit);
+    variables.push_back(core::word_of(scene_file::kFitVariables, p.variable));
   }
   table.texts("key", keys, "fitted keys of the scene");
   table.texts("label", labels, "names of the parameters");
   table.texts("unit", units, "unit of each parameter's numbers; 1: a plain number");
+  table.texts("variable", variables, "what is searched, in which errors are symmetrical");
   const std::vector<analysis::FittedParameter>& fitted = record.fit.parameters;
   const std::string unit = "as /parameters/unit";
   table.numbers("start", gathered(fitted, [](const auto& p) { return p.parameter.start; }), unit,
@@ -76,10 +78,20 @@ void put_parameters(FitTable table, const analysis::FitRecord& record) {
                 "upper bound");
   table.numbers("value", gathered(fitted, [](const auto& p) { return p.value.value; }), unit, "fitted value");
   if (!record.fit.has_errors) return;
-  table.numbers("error", gathered(fitted, [](const auto& p) { return p.value.error; }), unit,
-                "one standard error, of the measurement and of the Monte Carlo noise");
+  table.numbers(
+      "error", gathered(fitted, [](const auto& p) { return p.value.error; }), unit,
+      "one standard error, of the measurement and of the Monte Carlo noise; of an inverse to first order");
   table.numbers("monte_carlo_error", gathered(fitted, [](const auto& p) { return p.monte_carlo_error; }),
                 unit, "part of it from Monte Carlo noise");
+  table.numbers("interval_low", gathered(fitted, [](const auto& p) { return p.interval_low; }), unit,
+                "value at one standard error of the variable below, or the bound");
+  table.numbers("interval_high", gathered(fitted, [](const auto& p) { return p.interval_high; }), unit,
+                "value at one standard error of the variable above, or the bound");
+  const std::string of_variable = "as /parameters/unit, or its inverse by /parameters/variable";
+  table.numbers("variable_value", gathered(fitted, [](const auto& p) { return p.variable.value; }),
+                of_variable, "value or its inverse");
+  table.numbers("variable_error", gathered(fitted, [](const auto& p) { return p.variable.error; }),
+                of_variable, "one standard error of it");
   std::vector<double> correlation;
   for (Eigen::Index i = 0; i < record.fit.correlation.rows(); ++i)
     for (Eigen::Index j = 0; j < record.fit.correlation.cols(); ++j)

@@ -33,7 +33,7 @@ void check_errors(const scene_file::FitSpec& spec, const analysis::MeasuredCurve
 std::vector<analysis::FitParameter> parameters_of(const scene_file::FitSpec& spec) {
   std::vector<analysis::FitParameter> parameters;
   for (const scene_file::FitParameterSpec& p : spec.parameters)
-    parameters.push_back({p.label, p.start, p.low, p.high});
+    parameters.push_back({p.label, p.start, p.low, p.high, p.variable});
   return parameters;
 }
 

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <tuple>
+#include <utility>
 
 #include "scintray/analysis/fit/detail/fit_information.hpp"
 #include "scintray/analysis/fit/detail/fit_search.hpp"
@@ -18,6 +21,32 @@ using Eigen::Index;
 /// Correlation above which only a combination of two parameters is determined.
 constexpr double kSameDirection = 0.98;
 constexpr double kLeastProbability = 1e-3;
+/// Of errors until they are computed.
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+/// From a value to its variable, or back.
+double converted(const FitParameter& parameter, double value) {
+  return parameter.variable == FitVariable::inverse ? 1.0 / value : value;
+}
+
+/// The parameters by their variables.
+std::vector<FitParameter> variables_of(const std::vector<FitParameter>& parameters) {
+  std::vector<FitParameter> variables = parameters;
+  for (FitParameter& p : variables) {
+    p = {p.name, converted(p, p.start), converted(p, p.low), converted(p, p.high), p.variable};
+    if (p.low > p.high) std::swap(p.low, p.high);
+  }
+  return variables;
+}
+
+std::vector<double> values_of(const std::vector<FitParameter>& parameters,
+                              const std::vector<double>& variables) {
+  std::vector<double> values;
+  for (std::size_t j = 0; j < parameters.size(); ++j)
+    values.push_back(
+        std::clamp(converted(parameters[j], variables[j]), parameters[j].low, parameters[j].high));
+  return values;
+}
 
 void check(const MeasuredCurve& measured, const std::vector<FitParameter>& parameters,
            const CurveFitOptions& options) {
@@ -29,6 +58,9 @@ void check(const MeasuredCurve& measured, const std::vector<FitParameter>& param
                    fmt::format("the start of {}, {:g}, does not lie between {:g} and {:g}", p.name, p.start,
                                p.low, p.high),
                    "start within the bounds, not on them");
+    else if (p.variable == FitVariable::inverse && !(p.low > 0.0))
+      problems.add({}, fmt::format("the inverse of {} is fitted, but its lower bound is {:g}", p.name, p.low),
+                   "give a lower bound above 0, or fit the value itself");
   const std::size_t needed =
       parameters.size() + (options.free_scale ? 1 : 0) + (options.errors_from_scatter ? 1 : 0);
   if (measured.points.size() < needed) {
@@ -48,7 +80,8 @@ void check(const MeasuredCurve& measured, const std::vector<FitParameter>& param
   problems.throw_if_any();
 }
 
-void add_warnings(CurveFit& fit, const Eigen::MatrixXd& slope_noise, const Eigen::MatrixXd& information,
+void add_warnings(CurveFit& fit, const std::vector<FitParameter>& variables,
+                  const Eigen::MatrixXd& slope_noise, const Eigen::MatrixXd& information,
                   bool errors_from_scatter) {
   const auto warn = [&](std::string text) { fit.warnings.push_back(std::move(text)); };
   for (std::size_t j = 0; j < fit.parameters.size(); ++j) {
@@ -61,9 +94,10 @@ void add_warnings(CurveFit& fit, const Eigen::MatrixXd& slope_noise, const Eigen
                       name, p.at_low ? "lower" : "upper", p.at_low ? p.parameter.low : p.parameter.high));
     if (!p.determined)
       warn(
-          fmt::format("the measurement does not determine {}: its error, {:.3g}, is as large as that of "
+          fmt::format("the measurement does not determine {}: the error{}, {:.3g}, is as large as that of "
                       "a uniform distribution between {:g} and {:g}",
-                      name, p.value.error, p.parameter.low, p.parameter.high));
+                      name, p.parameter.variable == FitVariable::inverse ? " of its inverse" : "",
+                      p.variable.error, variables[j].low, variables[j].high));
     else if (p.monte_carlo_error * p.monte_carlo_error > 0.5 * p.value.error * p.value.error)
       warn(
           fmt::format("more than half of the variance of {} is Monte Carlo noise: more photons would make it "
@@ -106,19 +140,47 @@ double scale_error(const FitSearch& search, const FitCovariance& covariance, con
   return std::sqrt(1.0 / square + by.dot(covariance.total * by));
 }
 
-void set_parameters(CurveFit& fit, const std::vector<FitParameter>& parameters, const FitSearch& search) {
+void set_parameters(CurveFit& fit, const std::vector<FitParameter>& parameters,
+                    const std::vector<FitParameter>& variables, const FitSearch& search) {
+  const std::vector<double> values = values_of(parameters, search.best());
   for (std::size_t j = 0; j < parameters.size(); ++j) {
     FittedParameter p;
     p.parameter = parameters[j];
-    p.value.value = search.best()[j];
-    const double margin = kAtBound * (p.parameter.high - p.parameter.low);
-    p.at_low = p.value.value <= p.parameter.low + margin;
-    p.at_high = p.value.value >= p.parameter.high - margin;
+    p.value = {values[j], kUnknown};
+    p.variable = {search.best()[j], kUnknown};
+    p.monte_carlo_error = p.interval_low = p.interval_high = kUnknown;
+    const double margin = kAtBound * (variables[j].high - variables[j].low);
+    p.at_low = p.variable.value <= variables[j].low + margin;
+    p.at_high = p.variable.value >= variables[j].high - margin;
+    if (p.parameter.variable == FitVariable::inverse) std::swap(p.at_low, p.at_high);
     fit.parameters.push_back(std::move(p));
   }
 }
 
-void set_errors(CurveFit& fit, const FitSearch& search, bool errors_from_scatter) {
+/// The errors of a parameter, from those of its variable.
+void set_error(FittedParameter& p, const FitParameter& variable, double error, double monte_carlo_error) {
+  p.variable.error = error;
+  const double low = std::max(variable.low, p.variable.value - error);
+  const double high = std::min(variable.high, p.variable.value + error);
+  std::tie(p.interval_low, p.interval_high) =
+      std::minmax({converted(variable, low), converted(variable, high)});
+  const double slope = p.parameter.variable == FitVariable::inverse ? std::pow(p.value.value, 2) : 1.0;
+  p.value.error = slope * error;
+  p.monte_carlo_error = slope * monte_carlo_error;
+  // The standard deviation of a uniform distribution over the range.
+  p.determined = error < (variable.high - variable.low) / std::sqrt(12.0);
+}
+
+/// Sign of the change of a parameter by its variable.
+Eigen::VectorXd signs_of(const std::vector<FitParameter>& parameters) {
+  Eigen::VectorXd signs(static_cast<Index>(parameters.size()));
+  for (std::size_t j = 0; j < parameters.size(); ++j)
+    signs[static_cast<Index>(j)] = parameters[j].variable == FitVariable::inverse ? -1.0 : 1.0;
+  return signs;
+}
+
+void set_errors(CurveFit& fit, const std::vector<FitParameter>& variables, const FitSearch& search,
+                bool errors_from_scatter) {
   const FitSlopes& slopes = *search.slopes();
   const WeightedResiduals& residuals = search.residuals();
   const Eigen::MatrixXd information = information_of(slopes, search.range());
@@ -126,17 +188,15 @@ void set_errors(CurveFit& fit, const FitSearch& search, bool errors_from_scatter
       covariance_of(slopes, information, residuals.of(fit.curve), residuals.monte_carlo_share(fit.curve));
   fit.has_errors = true;
   const Eigen::VectorXd sigma = covariance.total.diagonal().cwiseSqrt();
-  fit.correlation = sigma.cwiseInverse().asDiagonal() * covariance.total * sigma.cwiseInverse().asDiagonal();
+  const Eigen::VectorXd unit = signs_of(variables).cwiseQuotient(sigma);
+  fit.correlation = unit.asDiagonal() * covariance.total * unit.asDiagonal();
   for (std::size_t j = 0; j < fit.parameters.size(); ++j) {
-    FittedParameter& p = fit.parameters[j];
-    p.value.error = sigma[static_cast<Index>(j)];
-    p.monte_carlo_error = std::sqrt(std::max(0.0, covariance.monte_carlo[static_cast<Index>(j)]));
-    // The standard deviation of a uniform distribution over the range.
-    p.determined = p.value.error < (p.parameter.high - p.parameter.low) / std::sqrt(12.0);
+    const auto k = static_cast<Index>(j);
+    set_error(fit.parameters[j], variables[j], sigma[k], std::sqrt(std::max(0.0, covariance.monte_carlo[k])));
   }
   fit.scale.error = scale_error(search, covariance, fit.curve);
   if (slopes.common_variance > 0.0) fit.variance_ratio = slopes.independent_variance / slopes.common_variance;
-  add_warnings(fit, slopes.summed_noise(), information, errors_from_scatter);
+  add_warnings(fit, variables, slopes.summed_noise(), information, errors_from_scatter);
 }
 
 }  // namespace
@@ -144,11 +204,20 @@ void set_errors(CurveFit& fit, const FitSearch& search, bool errors_from_scatter
 CurveFit fit_curve(const MeasuredCurve& measured, const std::vector<FitParameter>& parameters,
                    const CurveModel& model, const CurveFitOptions& options) {
   check(measured, parameters, options);
-  FitSearch search(measured, parameters, model, options);
+  const std::vector<FitParameter> variables = variables_of(parameters);
+  const CurveModel by_variables = [&](const std::vector<double>& at, std::uint64_t draw) {
+    return model(values_of(parameters, at), draw);
+  };
   CurveFit fit;
+  CurveFitOptions searching = options;
+  searching.progress = [&](const CurveFitStep& step) {
+    fit.steps.push_back(step);
+    fit.steps.back().parameters = values_of(parameters, step.parameters);
+    if (options.progress) options.progress(fit.steps.back());
+  };
+  FitSearch search(measured, variables, by_variables, searching);
   fit.end = search.run();
-  fit.steps = search.steps();
-  set_parameters(fit, parameters, search);
+  set_parameters(fit, parameters, variables, search);
   if (!search.curve()) return fit;
   const WeightedResiduals& residuals = search.residuals();
   fit.start_curve = search.start_curve();
@@ -165,7 +234,7 @@ CurveFit fit_curve(const MeasuredCurve& measured, const std::vector<FitParameter
   fit.goodness.degrees = search.degrees();
   if (fit.goodness.degrees > 0.0)
     fit.goodness.p_value = core::chi_square_p_value(fit.goodness.chi2, fit.goodness.degrees);
-  if (search.slopes()) set_errors(fit, search, options.errors_from_scatter);
+  if (search.slopes()) set_errors(fit, variables, search, options.errors_from_scatter);
   return fit;
 }
 

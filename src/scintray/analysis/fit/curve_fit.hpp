@@ -8,12 +8,16 @@
 #include <vector>
 
 #include "scintray/analysis/fit/fit_residuals.hpp"
+#include "scintray/scene_file/fit.hpp"
 
 namespace scintray::analysis {
 
+using scene_file::FitVariable;
+
 struct FitParameter {
   std::string name;
-  double start = 0.0, low = 0.0, high = 0.0;  ///< low < start < high
+  double start = 0.0, low = 0.0, high = 0.0;  ///< low < start < high, for the inverse above 0
+  FitVariable variable = FitVariable::value;
 };
 
 /// The simulated curve at given parameters, one point for each measured one; empty when it was stopped.
@@ -41,10 +45,14 @@ struct CurveFitOptions {
 
 enum class FitEnd { converged, not_converged, stopped };
 
+/// Errors and intervals are NaN without CurveFit::has_errors.
 struct FittedParameter {
   FitParameter parameter;
-  core::Estimate value;            ///< the error includes all contributions
+  core::Estimate value;            ///< the error includes all contributions; for the inverse to first order
   double monte_carlo_error = 0.0;  ///< part of it from the simulation, which decreases with more photons
+  core::Estimate variable;         ///< the value or its inverse, with one standard error of it
+  /// Of the value, at one standard error of the variable to both sides, or at the bounds if they are nearer.
+  double interval_low = 0.0, interval_high = 0.0;
   bool at_low = false, at_high = false;
   bool determined = true;  ///< false: the error is that of a uniform distribution between the bounds
 };
@@ -70,6 +78,7 @@ struct CurveFit {
 
 /// Least squares by GSL's trust region method (Levenberg-Marquardt; gsl_multifit_nlinear) with these
 /// additions for a noisy curve:
+///  - every parameter is searched in its FitVariable;
 ///  - parameters are kept in their bounds by p = low + (high - low) (1 + sin x) / 2 (F. James and M. Roos
 ///    1975, Comput. Phys. Commun. 10, 343);
 ///  - slopes are central differences over about one standard error of the parameter to each side, and over
@@ -83,9 +92,9 @@ struct CurveFit {
 ///  - errors: see covariance_of. The scale is eliminated (G. H. Golub and V. Pereyra 1973, SIAM J. Numer.
 ///    Anal. 10, 413).
 /// Deterministic for a deterministic model. @throws InputError for fewer points than parameters (and one more
-/// for a scale, and for errors from the scatter), for a start that is not within its bounds, or when the
-/// curve has no light anywhere at the start; std::invalid_argument when the model returns another number of
-/// points.
+/// for a scale, and for errors from the scatter), for a start that is not within its bounds, for an inverse
+/// with bounds that are not above 0, or when the curve has no light anywhere at the start;
+/// std::invalid_argument when the model returns another number of points.
 CurveFit fit_curve(const MeasuredCurve& measured, const std::vector<FitParameter>& parameters,
                    const CurveModel& model, const CurveFitOptions& options = {});
 

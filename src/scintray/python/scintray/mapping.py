@@ -136,11 +136,13 @@ class ResponseMap:
 
 class FitParameter:
     """A fitted parameter: ``name``, ``value`` with its whole error, ``unit``, ``monte_carlo_error`` (part of it),
-    ``start``, ``low``, ``high``, ``at_bound``, ``determined``."""
+    ``interval`` (one standard error of its ``variable``, "value" or "inverse", to both sides), ``in_variable`` (the
+    value or its inverse, with that error), ``start``, ``low``, ``high``, ``at_bound``, ``determined``."""
 
     def __init__(self, entry: Dict[str, Any]) -> None:
         self.__dict__.update(entry)
         self.value: Estimate = estimate(entry["value"])
+        self.in_variable: Estimate = estimate(entry["in_variable"])
 
     def __repr__(self) -> str:
         return f"FitParameter({self.name} = {self.value} {self.unit})".replace(" )", ")")

@@ -13,6 +13,13 @@ std::string with_unit(const std::string& text, const std::string& unit) {
   return unit.empty() ? text : text + " " + unit;
 }
 
+/// A fitted value with its error, or with its errors to both sides.
+std::string fitted_text(const analysis::FittedParameter& p) {
+  return p.parameter.variable == analysis::FitVariable::value
+             ? with_error(p.value)
+             : with_errors(p.value.value, p.interval_low, p.interval_high);
+}
+
 /// A measured value, whose error the file may not have.
 std::string measured_text(const core::Estimate& value) {
   return value.error > 0.0 ? with_error(value) : compact(value.value, 5);
@@ -32,7 +39,7 @@ TextTable fit_parameter_table(const analysis::FitRecord& record) {
     const analysis::FittedParameter& p = fit.parameters[j];
     const std::string& unit = record.spec.parameters[j].unit;
     table.push_back({p.parameter.name, with_unit(compact(p.parameter.start, 6), unit),
-                     with_unit(fit.has_errors ? with_error(p.value) : compact(p.value.value, 6), unit),
+                     with_unit(fit.has_errors ? fitted_text(p) : compact(p.value.value, 6), unit),
                      fit.has_errors ? with_unit(compact(p.monte_carlo_error, 2), unit) : "-",
                      with_unit(compact(p.parameter.low, 6) + " to " + compact(p.parameter.high, 6), unit)});
   }

@@ -61,6 +61,11 @@ std::string with_error(const core::Estimate& estimate) {
   return fixed(estimate.value, decimals) + " ± " + fixed(estimate.error, decimals);
 }
 
+std::string with_errors(double value, double low, double high) {
+  const int decimals = decimals_of(std::min(value - low, high - value));
+  return fixed(value, decimals) + " +" + fixed(high - value, decimals) + " −" + fixed(value - low, decimals);
+}
+
 std::string percent_with_error(const core::Estimate& estimate) {
   return with_error({100.0 * estimate.value, 100.0 * estimate.error}) + " %";
 }

@@ -16,6 +16,8 @@ std::string escape_html(const std::string& text);
 std::string fate_text(core::Fate fate);
 /// "0.3373 ± 0.0011": the error to two significant digits, the value to the same place.
 std::string with_error(const core::Estimate& estimate);
+/// "55.2 +4.9 −4.2": a value with the limits of its interval; the smaller error to two significant digits.
+std::string with_errors(double value, double low, double high);
 /// "33.73 ± 0.11 %".
 std::string percent_with_error(const core::Estimate& estimate);
 /// "187 500": digits in groups of three.

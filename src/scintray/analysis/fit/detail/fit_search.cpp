@@ -212,14 +212,13 @@ FitSearch::Outlook FitSearch::outlook() const {
 
 void FitSearch::report_step() {
   CurveFitStep step;
-  step.number = steps_.size();
+  step.number = steps_++;
   step.evaluations = evaluations_;
   step.parameters = best_;
   step.scale = residuals_.scale(*curve_);
   step.chi2 = residuals_.chi2(*curve_);
   step.estimate = draw_ > 0;
-  steps_.push_back(step);
-  if (options_.progress) options_.progress(steps_.back());
+  if (options_.progress) options_.progress(step);
 }
 
 void FitSearch::accept(const std::vector<double>& at) {
@@ -247,7 +246,7 @@ void FitSearch::descend() {
   const gsl_vector_view x = gsl_vector_view_array(inside.data(), count);
   trials_ = 0;
   if (gsl_multifit_nlinear_init(&x.vector, &functions, work.get()) != GSL_SUCCESS) return;
-  while (steps_.size() <= options_.most_steps && outlook().fall > kRest) {
+  while (steps_ <= options_.most_steps && outlook().fall > kRest) {
     // No progress is a result, too: the remaining decrease is smaller than the noise of the curve.
     trials_ = 0;
     if (gsl_multifit_nlinear_iterate(work.get()) != GSL_SUCCESS) return;
@@ -256,7 +255,7 @@ void FitSearch::descend() {
 }
 
 void FitSearch::update_weights() {
-  if (options_.errors_from_scatter && degrees() > 0.0 && steps_.size() > 1)
+  if (options_.errors_from_scatter && degrees() > 0.0 && steps_ > 1)
     common_error_ = residuals_.match_common_error(*curve_, degrees());
   else
     residuals_.reweight(*curve_);

@@ -31,7 +31,6 @@ class FitSearch {
   const Eigen::VectorXd& scale_slopes() const { return scale_slopes_; }
   const WeightedResiduals& residuals() const { return residuals_; }
   const std::optional<double>& common_error() const { return common_error_; }
-  const std::vector<CurveFitStep>& steps() const { return steps_; }
   Eigen::VectorXd range() const;
   /// Degrees of freedom: points minus fitted quantities.
   double degrees() const;
@@ -74,8 +73,7 @@ class FitSearch {
   std::optional<FitSlopes> slopes_;
   Eigen::VectorXd scale_slopes_;
   std::optional<double> common_error_;
-  std::vector<CurveFitStep> steps_;
-  std::size_t evaluations_ = 0;
+  std::size_t steps_ = 0, evaluations_ = 0;
   int trials_ = 0;
   std::uint64_t draw_ = 0;  ///< of random numbers: 0 to search, 1 to estimate
   bool converged_ = false;
