@@ -42,6 +42,31 @@ bool has_parts(const std::vector<DifferencePair>& pairs, std::size_t point) {
   return parts >= 2;
 }
 
+/// J^T J in units in which its diagonal is 1, by its principal directions, with the noise of J along each.
+struct PrincipalInformation {
+  PrincipalInformation(const FitSlopes& slopes, const Eigen::VectorXd& range) {
+    // Three times the inverse squared range is the information of twice the error of a uniform distribution.
+    const Eigen::VectorXd least = 3.0 * range.array().square().inverse().matrix();
+    const Eigen::MatrixXd raw = slopes.slope.transpose() * slopes.slope;
+    const Eigen::MatrixXd all_noise = slopes.summed_noise();
+    unit = raw.diagonal().cwiseMax(least).cwiseSqrt().cwiseInverse();
+    const Eigen::MatrixXd scaled = unit.asDiagonal() * raw * unit.asDiagonal();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
+    values = eigen.eigenvalues();
+    directions = eigen.eigenvectors();
+    noise.resize(values.size());
+    for (Index k = 0; k < values.size(); ++k) {
+      const Eigen::VectorXd direction = unit.cwiseProduct(directions.col(k));
+      noise[k] = direction.dot(all_noise * direction);
+      values[k] = std::max(values[k] - noise[k], direction.dot(least.cwiseProduct(direction)));
+    }
+  }
+
+  Eigen::VectorXd unit;
+  Eigen::MatrixXd directions;     ///< of length 1, in columns
+  Eigen::VectorXd values, noise;  ///< information less noise, and noise, along each
+};
+
 }  // namespace
 
 Eigen::MatrixXd FitSlopes::summed_noise() const {
@@ -83,22 +108,19 @@ FitSlopes slopes_of(const WeightedResiduals& residuals, const ModelCurve& centre
 }
 
 Eigen::MatrixXd information_of(const FitSlopes& slopes, const Eigen::VectorXd& range) {
-  // Three times the inverse squared range is the information of twice the error of a uniform distribution.
-  const Eigen::VectorXd least = 3.0 * range.array().square().inverse().matrix();
-  const Eigen::MatrixXd raw = slopes.slope.transpose() * slopes.slope;
-  const Eigen::MatrixXd noise = slopes.summed_noise();
-  const Eigen::VectorXd unit = raw.diagonal().cwiseMax(least).cwiseSqrt().cwiseInverse();
-  const Eigen::MatrixXd scaled = unit.asDiagonal() * raw * unit.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
-  Eigen::VectorXd values = eigen.eigenvalues();
-  for (Index k = 0; k < values.size(); ++k) {
-    const Eigen::VectorXd direction = unit.cwiseProduct(eigen.eigenvectors().col(k));
-    values[k] -= direction.dot(noise * direction);
-    values[k] = std::max(values[k], direction.dot(least.cwiseProduct(direction)));
-  }
+  const PrincipalInformation principal(slopes, range);
   const Eigen::MatrixXd mended =
-      eigen.eigenvectors() * values.asDiagonal() * eigen.eigenvectors().transpose();
-  return unit.cwiseInverse().asDiagonal() * mended * unit.cwiseInverse().asDiagonal();
+      principal.directions * principal.values.asDiagonal() * principal.directions.transpose();
+  return principal.unit.cwiseInverse().asDiagonal() * mended * principal.unit.cwiseInverse().asDiagonal();
+}
+
+Eigen::VectorXd noise_share_of(const FitSlopes& slopes, const Eigen::VectorXd& range) {
+  const PrincipalInformation principal(slopes, range);
+  const Eigen::VectorXd alone =
+      slopes.summed_noise().diagonal().cwiseQuotient(information_of(slopes, range).diagonal());
+  const Eigen::MatrixXd parts =
+      principal.directions.cwiseAbs2() * principal.noise.cwiseQuotient(principal.values).asDiagonal();
+  return alone.cwiseMax(parts.rowwise().maxCoeff());
 }
 
 FitCovariance covariance_of(const FitSlopes& slopes, const Eigen::MatrixXd& information,

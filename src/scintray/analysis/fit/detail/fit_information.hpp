@@ -39,6 +39,12 @@ FitSlopes slopes_of(const WeightedResiduals& residuals, const ModelCurve& centre
 /// @param range  of each parameter, high - low
 Eigen::MatrixXd information_of(const FitSlopes& slopes, const Eigen::VectorXd& range);
 
+/// Noise of the slopes by each parameter as a share of what is known: of its information with the others
+/// held, or of that of a principal direction of the information, as far as the parameter is part of it, where
+/// that is more. Where parameters are correlated, a direction has little information, and slopes must be the
+/// more precise.
+Eigen::VectorXd noise_share_of(const FitSlopes& slopes, const Eigen::VectorXd& range);
+
 /// Covariances of the parameters at the least squares.
 struct FitCovariance {
   /// Total: inverse information, whose sigma contains the measurement and Monte Carlo errors of the curve,

@@ -172,12 +172,12 @@ bool FitSearch::find_slopes(const std::vector<double>& at) {
 /// paths on both sides, their noise grows with the root of the distance and the difference with the distance,
 /// so wider differences are more precise.
 void FitSearch::choose_spans() {
-  const Eigen::MatrixXd noise = slopes_->summed_noise();
+  const Eigen::VectorXd noise_share = noise_share_of(*slopes_, range());
   const Eigen::MatrixXd information = information_of(*slopes_, range());
   for (std::size_t j = 0; j < span_.size(); ++j) {
     const auto k = static_cast<Index>(j);
     const double whole = parameters_[j].high - parameters_[j].low;
-    const double relative = noise(k, k) / information(k, k) / (kWantedNoise * kWantedNoise);
+    const double relative = noise_share[k] / (kWantedNoise * kWantedNoise);
     wider_[j] = std::clamp(wider_[j] * std::clamp(relative, 0.5, 4.0), 1.0, kMostWider);
     span_[j] = std::clamp(wider_[j] / std::sqrt(information(k, k)), kLeastSpan * whole, kMostSpan * whole);
   }
