@@ -114,7 +114,13 @@ class Examination {
   }
 
   void attributes(hid_t owner, const std::string& name) const {
-    const auto read = [](hid_t object, const char* attribute, const H5A_info_t*, void*) -> herr_t {
+    struct Context {
+      const TextHeaps& heaps;
+      haddr_t header;
+      std::string without_texts;  ///< the attribute that refers to texts that are not there
+    };
+    const auto read = [](hid_t object, const char* attribute, const H5A_info_t*, void* data) -> herr_t {
+      Context& context = *static_cast<Context*>(data);
       const Handle opened(H5Aopen(object, attribute, H5P_DEFAULT), H5Aclose);
       if (!opened.valid()) return -1;
       const Handle space(H5Aget_space(opened.id()), H5Sclose), type(H5Aget_type(opened.id()), H5Tclose);
@@ -122,11 +128,24 @@ class Examination {
       const hssize_t values = H5Sget_simple_extent_npoints(space.id());
       if (values < 0 || kind == H5T_NO_CLASS) return -1;
       if (kind != H5T_INTEGER && kind != H5T_FLOAT && kind != H5T_STRING) return 0;  // is never read
-      return read_values(static_cast<std::uint64_t>(values), type, space,
+      const auto count = static_cast<std::uint64_t>(values);
+      if (kind == H5T_STRING && H5Tis_variable_str(type.id()) > 0 &&
+          !context.heaps.have_attribute(context.header, attribute, count)) {
+        context.without_texts = attribute;
+        return -1;
+      }
+      return read_values(count, type, space,
                          [&](hid_t as, void* to) { return H5Aread(opened.id(), as, to); });
     };
-    if (H5Aiterate2(owner, H5_INDEX_NAME, H5_ITER_INC, nullptr, read, nullptr) < 0)
-      unreadable((name.empty() ? "/" : name) + " (its attributes)");
+    H5O_info_t about;
+    if (H5Oget_info2(owner, &about, H5O_INFO_BASIC) < 0) unreadable(name);
+    Context context{heaps_, about.addr, {}};
+    if (H5Aiterate2(owner, H5_INDEX_NAME, H5_ITER_INC, nullptr, read, &context) >= 0) return;
+    const std::string object = name.empty() ? "/" : name;
+    if (!context.without_texts.empty())
+      throw Unsound("attribute " + in_quotes(context.without_texts) + " of " + in_quotes(object) +
+                    " refers to texts that are not in the file");
+    unreadable(object + " (its attributes)");
   }
 
   void dataset(const Handle& object, const std::string& name) const {
@@ -230,8 +249,8 @@ constexpr const char* kSound = "sound";
 /// kSound, or what is wrong with a file. Runs in the child.
 std::string examine(const std::filesystem::path& path) {
   try {
-    // HDF5 reads memory that it has not set where an attribute refers to a text that its heap does not have.
-    // Set to what is no address, that ends this process rather than, sometimes, the next.
+    // HDF5 reads memory that it has not set where a text refers to what its heap does not have, and that was
+    // not found. Set to what is no address, that ends this process rather than, sometimes, the next.
     mallopt(M_PERTURB, 0x55);
     const TextHeaps heaps(path);
     if (heaps.endless()) return "an object in its heap of texts has no length";

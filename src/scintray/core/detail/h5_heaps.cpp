@@ -59,6 +59,13 @@ TextHeaps::TextHeaps(const std::filesystem::path& path) {
     if (begin_ == MAP_FAILED) begin_ = nullptr;
   }
   ::close(descriptor);
+  // The file begins at byte 0, 512, 1024, 2048, ... (section II.A).
+  const std::string_view all = bytes();
+  for (std::uint64_t at = 0; at < all.size(); at = at == 0 ? 512 : 2 * at)
+    if (all.substr(at).starts_with("\x89HDF\r\n\x1a\n")) {
+      base_ = at;
+      break;
+    }
 }
 
 TextHeaps::~TextHeaps() {
@@ -87,11 +94,11 @@ bool TextHeaps::have(std::uint64_t from, std::uint64_t count) const {
     const auto heap = number_at<std::uint64_t>(reference + 4);
     const auto index = number_at<std::uint32_t>(reference + 12);
     if (heap == 0) continue;  // no text
-    if (heap >= all.size() || !all.substr(heap).starts_with(kSignature)) return false;
+    if (heap >= all.size() - base_ || !all.substr(base_ + heap).starts_with(kSignature)) return false;
     const auto [place, is_new] = heaps.try_emplace(heap);
     Lengths& objects = place->second;
     if (is_new)
-      walk(all.substr(heap), [&objects](std::uint16_t of, std::uint64_t bytes_of) {
+      walk(all.substr(base_ + heap), [&objects](std::uint16_t of, std::uint64_t bytes_of) {
         objects[of] = bytes_of;
         return false;
       });
@@ -99,6 +106,12 @@ bool TextHeaps::have(std::uint64_t from, std::uint64_t count) const {
     if (object == objects.end() || object->second < length) return false;
   }
   return true;
+}
+
+bool TextHeaps::have_attribute(std::uint64_t header, const std::string& attribute,
+                               std::uint64_t count) const {
+  const std::optional<std::uint64_t> at = attribute_values_at(bytes(), base_, header, attribute);
+  return !at || have(*at, count);
 }
 
 }  // namespace scintray::core::h5

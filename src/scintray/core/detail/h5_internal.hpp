@@ -5,6 +5,7 @@
 #include <sys/types.h>
 
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -112,7 +113,7 @@ struct Life {
 
 /// The heaps in which a file keeps its texts, before HDF5 reads them: it trusts them and what refers to them
 /// (HDF5 1.10). Layout: HDF5 File Format Specification 3.0, section III.E (cited from memory: assumed; tests
-/// change heaps that HDF5 wrote).
+/// change heaps that HDF5 wrote). Addresses in a file are from the end of its user block on.
 class TextHeaps {
  public:
   explicit TextHeaps(const std::filesystem::path& path);
@@ -127,13 +128,25 @@ class TextHeaps {
   /// Whether `count` references of 16 bytes, from a byte of the file on, are to texts that the heaps have.
   /// HDF5 does not check the number of an object, and copies from wherever it takes it to be.
   bool have(std::uint64_t from, std::uint64_t count) const;
+  /// The same of the `count` texts of an attribute of the object whose header has an address. True also where
+  /// the header does not hold the attribute itself: those of netCDF-4 with more than eight attributes, in a
+  /// heap of their own, are not looked at.
+  bool have_attribute(std::uint64_t header, const std::string& attribute, std::uint64_t count) const;
 
  private:
   std::string_view bytes() const;
 
   void* begin_ = nullptr;  ///< of the file in memory; none when it could not be mapped
   std::size_t size_ = 0;
+  std::uint64_t base_ = 0;  ///< size of the user block
 };
+
+/// Byte of a file at which the values of an attribute begin; nothing where the header of the object does not
+/// hold it itself.
+/// @param base    size of the file's user block
+/// @param header  address of the object's header, from the end of the user block on
+std::optional<std::uint64_t> attribute_values_at(std::string_view bytes, std::uint64_t base,
+                                                 std::uint64_t header, const std::string& name);
 
 struct File::State {
   std::filesystem::path path;
