@@ -112,8 +112,9 @@ struct Life {
 };
 
 /// The heaps in which a file keeps its texts, before HDF5 reads them: it trusts them and what refers to them
-/// (HDF5 1.10). Layout: HDF5 File Format Specification 3.0, section III.E (cited from memory: assumed; tests
-/// change heaps that HDF5 wrote). Addresses in a file are from the end of its user block on.
+/// (HDF5 1.10). Layout: HDF5 File Format Specification 3.0, section III.E (https://github.com/HDFGroup/hdf5,
+/// doxygen/examples/H5.format.html, commit 03a3f5c7). Addresses in a file are from the end of its user block
+/// on.
 class TextHeaps {
  public:
   explicit TextHeaps(const std::filesystem::path& path);
