@@ -214,12 +214,15 @@ class AssemblyMaker {
   void check_contact_names() {
     std::vector<std::string> names;
     for (const AssemblyPart& part : assembly_.parts) names.push_back(part.geometry.name);
+    const std::set<std::string> known(names.begin(), names.end());
     for (const scene_file::ContactSpec& contact : spec_.contacts) {
       for (const config::NameRef& surface : {contact.surface, contact.leaving[0], contact.leaving[1]})
         if (!surface.empty()) find_surface(surface);
       if (contact.by_builder) continue;
       for (const config::NameRef& part : contact.between) {
-        if (!core::matching(part.name, names).empty()) continue;
+        if (known.contains(part.name) ||
+            (core::is_pattern(part.name) && !core::matching(part.name, names).empty()))
+          continue;
         const std::string near = core::nearest_word(part.name, names);
         problems_.add(part.where, "no part is called \"" + part.name + "\"",
                       near.empty() ? "name two [[part]]s of this scene" : "did you mean \"" + near + "\"?");

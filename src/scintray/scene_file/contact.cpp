@@ -9,32 +9,28 @@
 
 namespace scintray::scene_file {
 
-namespace {
-
-/// "part" or "part:face".
-void read_side(const config::TomlTable& table, const std::string& text, const std::vector<std::string>& names,
-               const std::vector<PartSpec>& parts, ContactSpec& contact, std::size_t side) {
-  if (text.find(':') == std::string::npos) {
-    contact.between[side] = {text, table.where("between")};
-    expect_parts(table, "between", contact.between[side], names);
-  } else if (const auto path = read_face_path(table, "between", text, names, parts, true)) {
-    contact.between[side] = path->part;
-    contact.faces[side] = path->face.name;
-  }
-}
-
-}  // namespace
-
 std::vector<ContactSpec> read_contacts(const config::TomlTable& scene,
                                        const std::vector<std::string>& part_names,
                                        const std::vector<PartSpec>& parts) {
   std::vector<ContactSpec> contacts;
   std::set<std::pair<std::string, std::string>> pairs;
+  const std::set<std::string> known(part_names.begin(), part_names.end());
+  // "part" or "part:face".
+  const auto read_side = [&](const config::TomlTable& table, const std::string& text, ContactSpec& contact,
+                             std::size_t side) {
+    if (text.find(':') == std::string::npos) {
+      contact.between[side] = {text, table.where("between")};
+      if (!known.contains(text)) expect_parts(table, "between", contact.between[side], part_names);
+    } else if (const auto path = read_face_path(table, "between", text, part_names, parts, true)) {
+      contact.between[side] = path->part;
+      contact.faces[side] = path->face.name;
+    }
+  };
   for (const config::TomlTable& table : scene.tables("contact")) {
     ContactSpec contact;
     contact.where = table.where();
     const std::vector<std::string> names = table.strings("between", 2);
-    for (std::size_t i = 0; i < names.size(); ++i) read_side(table, names[i], part_names, parts, contact, i);
+    for (std::size_t i = 0; i < names.size(); ++i) read_side(table, names[i], contact, i);
     contact.kind = table.choice("kind", kContactKinds);
     contact.surface = read_name(table, "surface", false);
     contact.leaving = {read_name(table, "leaving_first", false), read_name(table, "leaving_second", false)};

@@ -81,8 +81,7 @@ void check(const MeasuredCurve& measured, const std::vector<FitParameter>& param
 }
 
 void add_warnings(CurveFit& fit, const std::vector<FitParameter>& variables,
-                  const Eigen::MatrixXd& slope_noise, const Eigen::MatrixXd& information,
-                  bool errors_from_scatter) {
+                  const Eigen::VectorXd& noise_share, bool errors_from_scatter) {
   const auto warn = [&](std::string text) { fit.warnings.push_back(std::move(text)); };
   for (std::size_t j = 0; j < fit.parameters.size(); ++j) {
     const FittedParameter& p = fit.parameters[j];
@@ -104,9 +103,9 @@ void add_warnings(CurveFit& fit, const std::vector<FitParameter>& variables,
                       "surer",
                       name));
     const auto k = static_cast<Index>(j);
-    if (p.determined && slope_noise(k, k) > 0.1 * information(k, k))
+    if (p.determined && noise_share[k] > 0.1)
       warn(fmt::format("the slope of the curve by {} is known to {:.0f} % only: use more photons", name,
-                       100.0 * std::sqrt(slope_noise(k, k) / information(k, k))));
+                       100.0 * std::sqrt(noise_share[k])));
     for (std::size_t other = 0; other < j; ++other) {
       const double correlation = fit.correlation(k, static_cast<Index>(other));
       if (std::abs(correlation) > kSameDirection)
@@ -183,9 +182,9 @@ void set_errors(CurveFit& fit, const std::vector<FitParameter>& variables, const
                 bool errors_from_scatter) {
   const FitSlopes& slopes = *search.slopes();
   const WeightedResiduals& residuals = search.residuals();
-  const Eigen::MatrixXd information = information_of(slopes, search.range());
   const FitCovariance covariance =
-      covariance_of(slopes, information, residuals.of(fit.curve), residuals.monte_carlo_share(fit.curve));
+      covariance_of(slopes, search.range(), search.estimates(), residuals.of(fit.curve),
+                    residuals.monte_carlo_share(fit.curve));
   fit.has_errors = true;
   const Eigen::VectorXd sigma = covariance.total.diagonal().cwiseSqrt();
   const Eigen::VectorXd unit = signs_of(variables).cwiseQuotient(sigma);
@@ -196,7 +195,7 @@ void set_errors(CurveFit& fit, const std::vector<FitParameter>& variables, const
   }
   fit.scale.error = scale_error(search, covariance, fit.curve);
   if (slopes.common_variance > 0.0) fit.variance_ratio = slopes.independent_variance / slopes.common_variance;
-  add_warnings(fit, variables, slopes.summed_noise(), information, errors_from_scatter);
+  add_warnings(fit, variables, noise_share_of(slopes, search.range()), errors_from_scatter);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 #include <tuple>
+#include <utility>
 
 #include "scintray/core/activity.hpp"
 #include "scintray/core/pattern.hpp"
@@ -24,7 +25,9 @@ class InterfaceMaker {
       : assembly_(assembly),
         scene_(scene),
         problems_(problems),
-        contact_used_(assembly.contacts.size(), false) {}
+        contact_used_(assembly.contacts.size(), false) {
+    index_contacts();
+  }
 
   core::InterfaceId interface_of(const contact::InterfaceTriangle& t) {
     const InterfaceKey key{t.back, t.front, t.back_face, t.front_face};
@@ -219,11 +222,36 @@ class InterfaceMaker {
             core::literal_length(contact.between[0].name) + core::literal_length(contact.between[1].name)};
   }
 
+  static std::pair<std::string, std::string> ordered(const std::string& a, const std::string& b) {
+    return std::minmax(a, b);
+  }
+
+  /// Finds contacts by the names of two parts, those with patterns apart.
+  void index_contacts() {
+    for (std::size_t i = 0; i < assembly_.contacts.size(); ++i) {
+      const auto& between = assembly_.contacts[i].between;
+      if (core::is_pattern(between[0].name) || core::is_pattern(between[1].name))
+        contacts_with_patterns_.push_back(i);
+      else
+        contacts_of_[ordered(between[0].name, between[1].name)].push_back(i);
+    }
+  }
+
+  /// Those that may be meant for two parts, in the order of the file.
+  std::vector<std::size_t> contacts_between(core::PartId one, core::PartId other) const {
+    std::vector<std::size_t> found = contacts_with_patterns_;
+    const auto own = contacts_of_.find(ordered(part(one).geometry.name, part(other).geometry.name));
+    if (own == contacts_of_.end()) return found;
+    found.insert(found.end(), own->second.begin(), own->second.end());
+    std::sort(found.begin(), found.end());
+    return found;
+  }
+
   /// The contact that applies to these two faces, and whether its first name is that of the back.
   std::pair<const scene_file::ContactSpec*, bool> find_contact(const contact::InterfaceTriangle& t) {
     std::optional<std::size_t> best;
     bool back_is_first = true;
-    for (std::size_t i = 0; i < assembly_.contacts.size(); ++i) {
+    for (const std::size_t i : contacts_between(t.back, t.front)) {
       const scene_file::ContactSpec& contact = assembly_.contacts[i];
       const bool straight =
           names(contact, 0, t.back, t.back_face) && names(contact, 1, t.front, t.front_face);
@@ -282,6 +310,8 @@ class InterfaceMaker {
   Scene& scene_;
   core::Problems& problems_;
   std::vector<bool> contact_used_;
+  std::map<std::pair<std::string, std::string>, std::vector<std::size_t>> contacts_of_;
+  std::vector<std::size_t> contacts_with_patterns_;
   std::set<std::string> ties_;  ///< pairs of contacts already reported
   std::map<InterfaceKey, core::InterfaceId> known_;
   std::map<std::tuple<std::string, core::MediumId, core::MediumId>, core::SurfaceId> surfaces_;

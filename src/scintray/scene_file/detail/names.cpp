@@ -39,10 +39,10 @@ std::vector<config::NameRef> read_names(const config::TomlTable& table, const st
 
 void expect_part(const config::TomlTable& table, const std::string& key, const config::NameRef& name,
                  const std::vector<std::string>& parts) {
-  if (parts.empty()) return;
+  if (parts.empty() || name.empty() || std::find(parts.begin(), parts.end(), name.name) != parts.end())
+    return;
   const std::string near = core::nearest_word(name.name, parts);
-  table.expect(key, name.empty() || std::find(parts.begin(), parts.end(), name.name) != parts.end(),
-               "there is no part \"" + name.name + "\"",
+  table.report(key, "there is no part \"" + name.name + "\"",
                (near.empty() ? "" : "did you mean \"" + near + "\"? ") + "the parts are " + name_list(parts));
 }
 

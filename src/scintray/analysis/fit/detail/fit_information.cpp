@@ -123,18 +123,34 @@ Eigen::VectorXd noise_share_of(const FitSlopes& slopes, const Eigen::VectorXd& r
   return alone.cwiseMax(parts.rowwise().maxCoeff());
 }
 
-FitCovariance covariance_of(const FitSlopes& slopes, const Eigen::MatrixXd& information,
+Eigen::MatrixXd step_information_of(const FitSlopes& slopes, const Eigen::VectorXd& range) {
+  Eigen::MatrixXd information = slopes.slope.transpose() * slopes.slope;
+  information.diagonal() += range.array().square().inverse().matrix();
+  return information;
+}
+
+FitCovariance covariance_of(const FitSlopes& slopes, const Eigen::VectorXd& range, std::size_t steps,
                             const Eigen::VectorXd& residuals, const Eigen::VectorXd& monte_carlo_share) {
+  const Eigen::MatrixXd information = information_of(slopes, range);
   const Eigen::MatrixXd inverse = information.inverse();
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(inverse.rows(), inverse.cols());
+  const Eigen::MatrixXd step = step_information_of(slopes, range).inverse() * information;
+  Eigen::MatrixXd left = one;
+  for (std::size_t k = 0; k < steps; ++k) left = left * (one - step);
+  const Eigen::MatrixXd done = one - left;
   Eigen::MatrixXd moved = Eigen::MatrixXd::Zero(inverse.rows(), inverse.cols());
   for (Index i = 0; i < residuals.size(); ++i)
     moved += residuals[i] * residuals[i] * slopes.noise[static_cast<std::size_t>(i)];
-  const Eigen::MatrixXd wandering = inverse * moved * inverse;
-  const Eigen::MatrixXd curve =
-      inverse * (slopes.slope.transpose() * monte_carlo_share.asDiagonal() * slopes.slope) * inverse;
+  const Eigen::MatrixXd from_slopes = done * inverse * moved * inverse * done.transpose();
+  // The share of the Monte Carlo errors, by the information of the points.
+  const Eigen::VectorXd weight = (slopes.slope * range.asDiagonal()).rowwise().squaredNorm();
+  const double share = weight.sum() > 0.0 ? weight.dot(monte_carlo_share) / weight.sum() : 0.0;
+  const Eigen::MatrixXd mixed = share * done * inverse * left.transpose();
+  const Eigen::MatrixXd of_mean = mixed + mixed.transpose();
   FitCovariance covariance;
-  covariance.total = inverse + wandering;
-  covariance.monte_carlo = (curve + wandering).diagonal().cwiseMin(covariance.total.diagonal());
+  covariance.total = inverse - of_mean + from_slopes;
+  covariance.monte_carlo =
+      (share * inverse - of_mean + from_slopes).diagonal().cwiseMin(covariance.total.diagonal());
   return covariance;
 }
 

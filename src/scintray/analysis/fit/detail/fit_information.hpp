@@ -45,15 +45,23 @@ Eigen::MatrixXd information_of(const FitSlopes& slopes, const Eigen::VectorXd& r
 /// more precise.
 Eigen::VectorXd noise_share_of(const FitSlopes& slopes, const Eigen::VectorXd& range);
 
+/// J^T J with the information of a prior as wide as the range of the parameters, which keeps steps finite:
+/// what steps are divided by. The noise of J is in it, and shortens steps where they are uncertain.
+Eigen::MatrixXd step_information_of(const FitSlopes& slopes, const Eigen::VectorXd& range);
+
 /// Covariances of the parameters at the least squares.
 struct FitCovariance {
-  /// Total: inverse information, whose sigma contains the measurement and Monte Carlo errors of the curve,
-  /// and the effect of the noise of the slopes on the position of the minimum, F^-1 (sum r_i^2 N_i) F^-1.
   Eigen::MatrixXd total;
   Eigen::VectorXd monte_carlo;  ///< part of the variances from the simulation
 };
 
-FitCovariance covariance_of(const FitSlopes& slopes, const Eigen::MatrixXd& information,
+/// With F the information (information_of), R that of steps (step_information_of), c the share of the Monte
+/// Carlo errors in the errors of the residuals r, and S = 1 - (1 - R^-1 F)^k of k steps of the estimate:
+///   F^-1 - c (A + A^T), A = S F^-1 (1 - S)^T,
+/// where steps that are too short leave a share 1 - S of what the search found, with Monte Carlo errors of
+/// its own, so that the estimate is a mean of two simulations; and the effect of the noise N of the slopes on
+/// the position of the minimum, S F^-1 (sum r_i^2 N_i) F^-1 S^T.
+FitCovariance covariance_of(const FitSlopes& slopes, const Eigen::VectorXd& range, std::size_t steps,
                             const Eigen::VectorXd& residuals, const Eigen::VectorXd& monte_carlo_share);
 
 }  // namespace scintray::analysis

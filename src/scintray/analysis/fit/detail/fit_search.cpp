@@ -185,10 +185,7 @@ void FitSearch::choose_spans() {
 
 FitSearch::Outlook FitSearch::outlook() const {
   const Eigen::VectorXd down = -slopes_->slope.transpose() * residuals_.of(*curve_);
-  // The noise of the slopes, which information_of subtracts, is kept: it shortens steps where they are
-  // uncertain. A prior as wide as the range carries almost no information, but keeps steps finite.
-  Eigen::MatrixXd information = slopes_->slope.transpose() * slopes_->slope;
-  information.diagonal() += range().array().square().inverse().matrix();
+  const Eigen::MatrixXd information = step_information_of(*slopes_, range());
   // A parameter at a bound that would go beyond it is fixed.
   std::vector<Index> free;
   for (std::size_t j = 0; j < best_.size(); ++j) {
@@ -297,6 +294,7 @@ bool FitSearch::estimate() {
     const bool last = next.fall < kStraight || i + 1 == kMostEstimates;
     curve_ = carried_on(at);
     best_ = at;
+    ++estimates_;
     if (last) update_weights();
     report_step();
     if (last) {

@@ -32,6 +32,8 @@ class FitSearch {
   const WeightedResiduals& residuals() const { return residuals_; }
   const std::optional<double>& common_error() const { return common_error_; }
   Eigen::VectorXd range() const;
+  /// Steps of the estimate, with other random numbers than the search.
+  std::size_t estimates() const { return estimates_; }
   /// Degrees of freedom: points minus fitted quantities.
   double degrees() const;
 
@@ -73,7 +75,7 @@ class FitSearch {
   std::optional<FitSlopes> slopes_;
   Eigen::VectorXd scale_slopes_;
   std::optional<double> common_error_;
-  std::size_t steps_ = 0, evaluations_ = 0;
+  std::size_t steps_ = 0, evaluations_ = 0, estimates_ = 0;
   int trials_ = 0;
   std::uint64_t draw_ = 0;  ///< of random numbers: 0 to search, 1 to estimate
   bool converged_ = false;
