@@ -195,7 +195,9 @@ void set_errors(CurveFit& fit, const std::vector<FitParameter>& variables, const
   }
   fit.scale.error = scale_error(search, covariance, fit.curve);
   if (slopes.common_variance > 0.0) fit.variance_ratio = slopes.independent_variance / slopes.common_variance;
-  add_warnings(fit, variables, noise_share_of(slopes, search.range()), errors_from_scatter);
+  const Eigen::VectorXd noise_share =
+      slopes.summed_noise().diagonal().cwiseQuotient(information_of(slopes, search.range()).diagonal());
+  add_warnings(fit, variables, noise_share, errors_from_scatter);
 }
 
 }  // namespace
