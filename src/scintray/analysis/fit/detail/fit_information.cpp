@@ -67,20 +67,6 @@ struct PrincipalInformation {
   Eigen::VectorXd values, noise;  ///< information less noise, and noise, along each
 };
 
-/// The inverse of information F that is known with noise is larger, on average, than that of its mean: by
-/// F^-1 T F^-1 to second order in the noise of the slopes. @returns  T, the mean of dF F^-1 dF with
-/// dF = J^T n + n^T J, for rows n_i of noise N_i that are independent of each other
-Eigen::MatrixXd excess_of_inverse(const FitSlopes& slopes, const Eigen::MatrixXd& inverse) {
-  Eigen::MatrixXd excess = Eigen::MatrixXd::Zero(inverse.rows(), inverse.cols());
-  for (Index i = 0; i < slopes.slope.rows(); ++i) {
-    const Eigen::MatrixXd& noise = slopes.noise[static_cast<std::size_t>(i)];
-    const Eigen::VectorXd row = slopes.slope.row(i).transpose();
-    const Eigen::MatrixXd square = row * row.transpose(), mixed = square * inverse * noise;
-    excess += row.dot(inverse * row) * noise + (inverse * noise).trace() * square + mixed + mixed.transpose();
-  }
-  return excess;
-}
-
 }  // namespace
 
 Eigen::MatrixXd FitSlopes::summed_noise() const {
@@ -146,7 +132,7 @@ Eigen::MatrixXd step_information_of(const FitSlopes& slopes, const Eigen::Vector
 FitCovariance covariance_of(const FitSlopes& slopes, const Eigen::VectorXd& range, std::size_t steps,
                             const Eigen::VectorXd& residuals, const Eigen::VectorXd& monte_carlo_share) {
   const Eigen::MatrixXd information = information_of(slopes, range);
-  const Eigen::MatrixXd inverse = (information + excess_of_inverse(slopes, information.inverse())).inverse();
+  const Eigen::MatrixXd inverse = information.inverse();
   const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(inverse.rows(), inverse.cols());
   const Eigen::MatrixXd step = step_information_of(slopes, range).inverse() * information;
   Eigen::MatrixXd left = one;

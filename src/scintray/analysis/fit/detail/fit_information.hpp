@@ -57,7 +57,7 @@ struct FitCovariance {
 
 /// With F the information (information_of), R that of steps (step_information_of), c the share of the Monte
 /// Carlo errors in the errors of the residuals r, and S = 1 - (1 - R^-1 F)^k of k steps of the estimate:
-///   F^-1 - c (A + A^T), A = S F^-1 (1 - S)^T, with F^-1 less what the noise of F adds to it on average,
+///   F^-1 - c (A + A^T), A = S F^-1 (1 - S)^T,
 /// where steps that are too short leave a share 1 - S of what the search found, with Monte Carlo errors of
 /// its own, so that the estimate is a mean of two simulations; and the effect of the noise N of the slopes on
 /// the position of the minimum, S F^-1 (sum r_i^2 N_i) F^-1 S^T.
