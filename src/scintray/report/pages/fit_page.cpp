@@ -160,9 +160,9 @@ std::string fit_page(const analysis::FitRecord& record) {
               "measurement's errors, the Monte Carlo errors of the fitted curve, and what the noise of the "
               "curve's slopes does to the position of the minimum; the part that is Monte Carlo noise is "
               "given "
-              "beside them and falls with more photons. Two errors, above and below, are one of a value that "
-              "is "
-              "fitted by its inverse. They do not include errors of the scene itself.") +
+              "beside them and falls with more photons. Two errors, above and "
+              "below, are one of a value that is fitted by its inverse. They do not include errors of the "
+              "scene itself.") +
           paragraph(fit_facts(record) + "."));
   const std::string title = record.title.empty() ? "Fit" : "Fit: " + record.title;
   return html_page(title,
