@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "analysis/toys.hpp"
 #include "scintray/analysis/fit/curve_fit.hpp"
@@ -24,15 +25,7 @@ class ToyDetector {
   using Law = std::function<double(double x, const std::vector<double>& parameters)>;
 
   ToyDetector(std::vector<double> x, std::size_t photons, std::uint64_t seed, Law law)
-      : x_(std::move(x)), photons_(photons), law_(std::move(law)) {
-    for (std::size_t i = 0; i < 2 * x_.size(); ++i) {
-      Rng rng = toy_rng(seed, 1000 + i);
-      std::vector<std::vector<double>> parts(kToyParts);
-      for (std::size_t k = 0; k < photons_; ++k) parts[k % kToyParts].push_back(rng.uniform());
-      for (auto& part : parts) std::sort(part.begin(), part.end());
-      numbers_.push_back(std::move(parts));
-    }
-  }
+      : x_(std::move(x)), photons_(photons), seed_(seed), law_(std::move(law)) {}
 
   ModelCurve trace(const std::vector<double>& parameters, std::uint64_t draw) const {
     ModelCurve curve;
@@ -40,7 +33,7 @@ class ToyDetector {
       const double law = law_(x_[i], parameters);
       std::uint64_t detected = 0;
       ModelPoint point;
-      for (const auto& part : numbers_[draw * x_.size() + i]) {
+      for (const auto& part : numbers(draw * x_.size() + i)) {
         const auto n = std::lower_bound(part.begin(), part.end(), law) - part.begin();
         detected += static_cast<std::uint64_t>(n);
         point.parts.push_back(static_cast<double>(n) / static_cast<double>(part.size()));
@@ -57,10 +50,25 @@ class ToyDetector {
   }
 
  private:
+  /// Numbers of the photons of each part, in ascending order.
+  using Numbers = std::vector<std::vector<double>>;
+
+  /// Those of one draw and point, made when they are first used.
+  const Numbers& numbers(std::size_t draw_and_point) const {
+    Numbers& parts = numbers_[draw_and_point];
+    if (!parts.empty()) return parts;
+    parts.resize(kToyParts);
+    Rng rng = toy_rng(seed_, 1000 + draw_and_point);
+    for (std::size_t k = 0; k < photons_; ++k) parts[k % kToyParts].push_back(rng.uniform());
+    for (auto& part : parts) std::sort(part.begin(), part.end());
+    return parts;
+  }
+
   std::vector<double> x_;
   std::size_t photons_;
+  std::uint64_t seed_;
   Law law_;
-  std::vector<std::vector<std::vector<double>>> numbers_;  ///< draw and point, part, photon
+  mutable std::map<std::size_t, Numbers> numbers_;
 };
 
 const std::vector<double> kDepths{1, 3, 5, 8, 11, 14, 17, 20};

@@ -29,6 +29,10 @@ constexpr double kFirstSpan = 0.05, kLeastSpan = 1e-4, kMostSpan = 0.15;
 /// Target noise of a difference, relative to the difference, and the limit of its widening for that.
 constexpr double kWantedNoise = 0.1, kMostWider = 5.0;
 constexpr int kMostEstimates = 4, kMostRounds = 4;
+/// Noise of the slopes that errors may have, as noise_share_of, and the number of sets of random numbers that are used
+/// to reach it.
+constexpr double kNoiseOfErrors = 0.02;
+constexpr std::uint64_t kMostDraws = 5;
 /// Number of shorter steps that GSL may try before the search for a decrease is abandoned.
 constexpr int kMostTrials = 6;
 /// Number of values that a parameter can have between its bounds, so that the conversion to the internal
@@ -47,6 +51,18 @@ double root_mean_square(const MeasuredCurve& measured) {
   double sum = 0.0;
   for (const MeasuredCurve::Point& point : measured.points) sum += point.y.value * point.y.value;
   return std::sqrt(sum / static_cast<double>(measured.points.size()));
+}
+
+/// Makes a mean of `count` independent curves one of `count + 1`.
+void add_to_mean(ModelCurve& mean, const ModelCurve& other, std::uint64_t count) {
+  const auto n = static_cast<double>(count);
+  for (std::size_t i = 0; i < mean.size(); ++i) {
+    core::Estimate& value = mean[i].value;
+    value.error = std::hypot(n * value.error, other[i].value.error) / (n + 1.0);
+    value.value = (n * value.value + other[i].value.value) / (n + 1.0);
+    // Shares are equal, so those of all curves are parts of their mean.
+    mean[i].parts.insert(mean[i].parts.end(), other[i].parts.begin(), other[i].parts.end());
+  }
 }
 
 }  // namespace
@@ -132,8 +148,14 @@ std::vector<double> FitSearch::outer(const double* inner) const {
 
 std::optional<ModelCurve> FitSearch::evaluate(const std::vector<double>& at) {
   if (const auto found = known_.find(at); found != known_.end()) return found->second;
+  const std::optional<ModelCurve> curve = trace(at, draw_);
+  if (curve) known_.emplace(at, *curve);
+  return curve;
+}
+
+std::optional<ModelCurve> FitSearch::trace(const std::vector<double>& at, std::uint64_t draw) {
   if (stopped_) return std::nullopt;
-  std::optional<ModelCurve> curve = model_(at, draw_);
+  std::optional<ModelCurve> curve = model_(at, draw);
   if (!curve) {
     stopped_ = true;
     return std::nullopt;
@@ -141,7 +163,6 @@ std::optional<ModelCurve> FitSearch::evaluate(const std::vector<double>& at) {
   if (curve->size() != residuals_.size())
     throw std::invalid_argument("the model returns another number of points than were measured");
   ++evaluations_;
-  known_.emplace(at, *curve);
   return curve;
 }
 
@@ -150,20 +171,48 @@ bool FitSearch::find_slopes(const std::vector<double>& at) {
   const std::optional<ModelCurve> centre = evaluate(at);
   std::vector<DifferencePair> pairs;
   for (std::size_t j = 0; j < at.size(); ++j) {
-    std::vector<double> low = at, high = at;
-    low[j] = snapped(j, at[j] - span_[j]);
-    high[j] = snapped(j, at[j] + span_[j]);
+    const auto [low, high] = sides_of(at, j);
     const auto below = evaluate(low), above = evaluate(high);
     if (!centre || !below || !above) return false;
     pairs.push_back({*below, *above, high[j] - low[j]});
   }
-  slopes_ = slopes_of(residuals_, *centre, pairs);
   slopes_at_ = at;
-  pairs_ = pairs;
-  scale_slopes_.resize(static_cast<Index>(pairs.size()));
-  for (std::size_t j = 0; j < pairs.size(); ++j)
+  set_slopes(*centre, std::move(pairs));
+  return true;
+}
+
+std::array<std::vector<double>, 2> FitSearch::sides_of(const std::vector<double>& at, std::size_t j) const {
+  std::vector<double> low = at, high = at;
+  low[j] = snapped(j, at[j] - span_[j]);
+  high[j] = snapped(j, at[j] + span_[j]);
+  return {low, high};
+}
+
+void FitSearch::set_slopes(const ModelCurve& centre, std::vector<DifferencePair> pairs) {
+  slopes_ = slopes_of(residuals_, centre, pairs);
+  pairs_ = std::move(pairs);
+  scale_slopes_.resize(static_cast<Index>(pairs_.size()));
+  for (std::size_t j = 0; j < pairs_.size(); ++j)
     scale_slopes_[static_cast<Index>(j)] =
-        (residuals_.scale(pairs[j].high) - residuals_.scale(pairs[j].low)) / pairs[j].span;
+        (residuals_.scale(pairs_[j].high) - residuals_.scale(pairs_[j].low)) / pairs_[j].span;
+}
+
+/// The inverse of an information that is known with noise is larger on average, and so would be the errors:
+/// differences are repeated with other random numbers, and averaged, until little of that is left.
+bool FitSearch::repeat_slopes() {
+  const std::vector<double>& at = slopes_at_;
+  for (std::uint64_t repeated = 1;
+       repeated < kMostDraws && noise_share_of(*slopes_, range()).maxCoeff() > kNoiseOfErrors; ++repeated) {
+    std::vector<DifferencePair> pairs = pairs_;
+    for (std::size_t j = 0; j < at.size(); ++j) {
+      const auto [low, high] = sides_of(at, j);
+      const auto below = trace(low, draw_ + repeated), above = trace(high, draw_ + repeated);
+      if (!below || !above) return false;
+      add_to_mean(pairs[j].low, *below, repeated);
+      add_to_mean(pairs[j].high, *above, repeated);
+    }
+    set_slopes(*curve_, std::move(pairs));
+  }
   return true;
 }
 
@@ -288,7 +337,11 @@ bool FitSearch::estimate() {
     curve_ = fresh;
     if (!options_.errors_from_scatter) residuals_.reweight(*curve_);
     if (!find_slopes(best_)) return false;
-    const Outlook next = outlook();
+    Outlook next = outlook();
+    if (next.fall < kStraight || i + 1 == kMostEstimates) {
+      if (!repeat_slopes()) return false;
+      next = outlook();
+    }
     std::vector<double> at = best_;
     for (std::size_t j = 0; j < at.size(); ++j) at[j] = snapped(j, at[j] + next.step[static_cast<Index>(j)]);
     const bool last = next.fall < kStraight || i + 1 == kMostEstimates;

@@ -1,6 +1,7 @@
 #pragma once
 /// The search for the least squares of a noisy curve, as described in curve_fit.hpp.
 
+#include <array>
 #include <map>
 #include <optional>
 #include <vector>
@@ -46,7 +47,12 @@ class FitSearch {
   };
 
   std::optional<ModelCurve> evaluate(const std::vector<double>& at);
+  std::optional<ModelCurve> trace(const std::vector<double>& at, std::uint64_t draw);
   bool find_slopes(const std::vector<double>& at);
+  bool repeat_slopes();
+  void set_slopes(const ModelCurve& centre, std::vector<DifferencePair> pairs);
+  /// Both ends of the difference in a parameter.
+  std::array<std::vector<double>, 2> sides_of(const std::vector<double>& at, std::size_t j) const;
   void choose_spans();
   Outlook outlook() const;
   void update_weights();
@@ -77,7 +83,7 @@ class FitSearch {
   std::optional<double> common_error_;
   std::size_t steps_ = 0, evaluations_ = 0, estimates_ = 0;
   int trials_ = 0;
-  std::uint64_t draw_ = 0;  ///< of random numbers: 0 to search, 1 to estimate
+  std::uint64_t draw_ = 0;  ///< of random numbers: 0 to search, 1 to estimate, above for slopes alone
   bool converged_ = false;
   bool stopped_ = false;
 };
