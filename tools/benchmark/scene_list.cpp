@@ -63,6 +63,7 @@ const std::vector<BenchScene>& scene_list() {
       crystal("painted", "Lambertian reflector on the crystal", "painted"),
       crystal("table_ptfe", "table of a ground surface, air gap, PTFE", "table_ptfe"),
       crystal("height_map", "rays on a ground height map, no table", "ground_on_the_spot"),
+      {"rod", "polished rod, its wall by formula", "rod.toml", {}, nullptr, "polished"},
       {"tape", "film with an explicit air gap, polished crystal", "tape.toml"},
       array(1, "bare", "polished"),
       array(20, "bare", "polished"),
