@@ -111,6 +111,19 @@ surface = "roncali2013_unified_rough"
 )" + sensor_and_source("6 mm");
 }
 
+/// A polished crystal with round walls, exact, on a sensor of the whole face.
+std::string round_crystal(const std::string& shape, const std::string& side, const std::string& more = "") {
+  return R"(
+ambient = "vacuum"
+[[part]]
+name = "crystal"
+medium = "LSO_roncali2013"
+surface = "polished"
+)" + shape +
+         "\n" + sensor_and_source(side) + more;
+}
+const char* const kRod = R"(cylinder = { radius = "1 mm", height = "20 mm", segments = 24 })";
+
 /// Facets of UNIFIED, weighted by area, in a scene of crystal().
 std::string by_area(const std::string& sigma_alpha) {
   return R"([surfaces.rough]
@@ -241,6 +254,27 @@ TEST_CASE("Results and photons are the same to the last bit for every width of t
   }
   SUBCASE("table, along its normal") { scene = along_the_normal("backed", kTableBacked); }
   SUBCASE("through Embree") { scene = crystal("polished", "[run]\naccelerator = \"embree\"\n"); }
+  SUBCASE("rod") { scene = round_crystal(kRod, "6 mm"); }
+  SUBCASE("rod, its end over two regions") { scene = round_crystal(kRod, "1 mm"); }
+  SUBCASE("rod, unpolarised") { scene = round_crystal(kRod, "6 mm", "polarisation = \"unpolarised\"\n"); }
+  SUBCASE("rod, cut by interactions") {
+    scene = round_crystal(kRod, "6 mm", "[run]\nmax_interactions = 7\n");
+  }
+  SUBCASE("rod, cut by time") { scene = round_crystal(kRod, "6 mm", "[run]\nmax_time = \"0.3 ns\"\n"); }
+  SUBCASE("cone, far from the origin") {
+    scene = round_crystal(R"(cone = { bottom_radius = "2 mm", top_radius = "0.5 mm", height = "9 mm" }
+translate = ["3000 mm", "-2000 mm", "1000 mm"])",
+                          "6 mm");
+  }
+  SUBCASE("lens") {
+    scene = round_crystal(
+        R"(lens = { diameter = "6 mm", thickness = "4 mm", bottom_radius = "8 mm", top_radius = "20 mm" })",
+        "6 mm");
+  }
+  SUBCASE("sphere") { scene = round_crystal(R"(sphere = { radius = "2 mm", subdivisions = 6 })", "6 mm"); }
+  SUBCASE("turned rod") {
+    scene = round_crystal(std::string(kRod) + "\nrotate = { axis = [1, 1, 0], angle = \"90 deg\" }", "6 mm");
+  }
   SUBCASE("cut by interactions") { scene = crystal("polished", "[run]\nmax_interactions = 20\n"); }
   SUBCASE("cut by time") { scene = crystal("polished", "[run]\nmax_time = \"0.3 ns\"\n"); }
   SUBCASE("array with the spectrum of its light") { scene = array(kEmission); }
@@ -292,6 +326,24 @@ TEST_CASE("Photons stay in lanes at facets, tables and reflectors, and each is r
       CHECK(end.interactions == seen.interactions);
     }
   }
+}
+
+TEST_CASE("Polished convex bodies of planes and quadrics are traced in lanes, others one by one") {
+  const auto kind_of = [](const std::string& scene) {
+    const auto point = ready(scene_spec(scene));
+    const int widest = transport::lane_widths().back();
+    return transport::lane_kind(point->scene(), point->start(0, 0).region, widest);
+  };
+  const auto in_lanes =
+      transport::lane_widths().size() > 1 ? transport::LaneKind::smooth : transport::LaneKind::none;
+  CHECK(kind_of(round_crystal(kRod, "6 mm")) == in_lanes);
+  CHECK(kind_of(round_crystal(R"(sphere = { radius = "2 mm" })", "6 mm")) == in_lanes);
+  CHECK(kind_of(round_crystal(std::string(kRod) + "\nrotate = { axis = [1, 1, 0], angle = \"90 deg\" }",
+                              "6 mm")) == transport::LaneKind::none);
+  CHECK(kind_of(replaced(round_crystal(kRod, "6 mm"), "surface = \"polished\"",
+                         "surface = \"roncali2013_unified_rough\"")) == transport::LaneKind::none);
+  CHECK(kind_of(round_crystal(R"(tube = { outer_radius = "2 mm", inner_radius = "1 mm", height = "10 mm" })",
+                              "6 mm")) == transport::LaneKind::none);
 }
 
 TEST_CASE("Laws over a number type have the bits of those for one photon") {

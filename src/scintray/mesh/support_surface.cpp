@@ -98,10 +98,11 @@ bool SupportSurface::is_on_sheet(const core::Vec3& point) const {
 }
 
 core::Vec3 SupportSurface::normal(const core::Vec3& point) const {
+  if (!is_torus()) [[likely]]
+    return core::vec(numbers().normal(core::triple(point)));
   const core::Vec3 outwards = gradient(point);
   const double length = outwards.norm();
-  if (length > 0.0) return outwards / length;
-  return slope > 0.0 ? core::Vec3(-axis.vec()) : axis.vec();
+  return length > 0.0 ? core::Vec3(outwards / length) : axis.vec();
 }
 
 double SupportSurface::distance(const core::Vec3& point) const {
@@ -124,6 +125,8 @@ double SupportSurface::distance(const core::Vec3& point) const {
 }
 
 core::Vec3 SupportSurface::correction(const core::Vec3& point) const {
+  if (!is_torus()) [[likely]]
+    return core::vec(numbers().correction(core::triple(point)));
   const core::Vec3 outwards = gradient(point);
   const double length2 = outwards.squaredNorm();
   if (!(length2 > 0.0)) return core::Vec3::Zero();

@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "scintray/core/plain_vec.hpp"
+#include "scintray/mesh/quadric_laws.hpp"
 
 namespace scintray::mesh {
 
@@ -61,17 +62,16 @@ struct SupportSurface {
 
   /// q (mm2) at a point: negative inside, but positive in a cone's other nappe, too.
   double value(const core::Vec3& point) const {
+    if (!is_torus()) [[likely]]
+      return numbers().value(numbers().place(core::triple(point)));
     const Place at = place(point);
-    if (is_torus()) [[unlikely]]
-      return (at.rho.norm() - major) * (at.rho.norm() - major) + at.z * at.z - radius2;
-    return at.rho.squaredNorm() + (axial * at.z - 2.0 * slope) * at.z - radius2;
+    return (at.rho.norm() - major) * (at.rho.norm() - major) + at.z * at.z - radius2;
   }
   /// Half the gradient of q (mm), which points outwards; zero at the tip of a cone.
   core::Vec3 gradient(const core::Vec3& point) const {
-    const Place at = place(point);
-    if (is_torus()) [[unlikely]]
-      return point - circle_point(at);
-    return at.rho + (axial * at.z - slope) * axis.vec();
+    if (!is_torus()) [[likely]]
+      return core::vec(numbers().gradient(numbers().place(core::triple(point))));
+    return point - circle_point(place(point));
   }
   /// Whether a point of the surface is on the sheet around its origin: not in the other nappe of a cone.
   bool is_on_sheet(const core::Vec3& point) const;
@@ -81,6 +81,11 @@ struct SupportSurface {
   double distance(const core::Vec3& point) const;
   /// Displacement (mm) onto the surface of a point next to it: one step of Newton's method.
   core::Vec3 correction(const core::Vec3& point) const;
+
+  /// The numbers of a quadric.
+  QuadricOf<double> numbers() const {
+    return {core::triple(origin), core::triple(axis), axial, slope, radius2};
+  }
 
   /// The centre of a sphere; of a torus the nearest point of the circle in its tube; of other surfaces the
   /// point of the axis at the same z.

@@ -105,6 +105,11 @@ class Accelerator {
   std::size_t size() const { return boundary_.size(); }
   BoundaryTriangle triangle(std::uint32_t i) const { return boundary_.triangle(i); }
   bool uses_planes() const { return !boundary_.planes.empty(); }
+  /// Whether the region is one convex body of planes and quadrics, and nothing else bounds it.
+  bool is_convex_body() const {
+    const ExactBodies& exact = boundary_.exact;
+    return exact.held && exact.bodies.size() == 1 && exact.bodies.front().is_convex() && !embree_;
+  }
   /// Number of distinct planes that bound the region, when it is convex.
   std::size_t plane_count() const { return boundary_.planes.size(); }
   /// All records of the accelerator; Embree's scene is made from them.

@@ -71,7 +71,7 @@ void ExactBodies::leave(const ExactBody& body, const Ray& ray, BodyHit& nearest)
     const BodyQuadric& quadric = quadrics[i];
     QuadricOnRay q = on_ray(quadric.surface, ray.origin, ray.direction);
     if (i == ray.left) q.c = 0.0;
-    const double distance = distance_out(q);
+    const double distance = mesh::distance_out(q);
     if (distance < nearest.distance_mm) nearest = {distance, &quadric.on, body.first};
   }
 }

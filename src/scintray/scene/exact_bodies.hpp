@@ -15,28 +15,11 @@ namespace scintray::scene {
 
 inline constexpr std::uint32_t kNoSurface = 0xffffffffu;
 
-/// q along a ray, with t the distance (mm): q(t) = a t^2 + 2 b t + c.
-struct QuadricOnRay {
-  double a, b, c;
-};
-
+/// q along a ray.
+using QuadricOnRay = mesh::QuadricOnRayOf<double>;
 inline QuadricOnRay on_ray(const mesh::SupportSurface& s, const core::Vec3& origin,
                            const core::Vec3& direction) {
-  const core::Vec3 w = origin - s.origin;
-  const double z = s.axis.dot(w), dz = s.axis.dot(direction);
-  const core::Vec3 rho = w - z * s.axis.vec(), across = direction - dz * s.axis.vec();
-  return {across.squaredNorm() + s.axial * dz * dz, rho.dot(across) + (s.axial * z - s.slope) * dz,
-          rho.squaredNorm() + (s.axial * z - 2.0 * s.slope) * z - s.radius2};
-}
-
-/// Distance (mm) at which a ray from inside a convex quadric, or from on it, leaves it; infinite where it
-/// does not. The point is inside, so that c is not positive but for rounding, which leaves one root ahead:
-/// with c = 0 for the surface that the ray has just been reflected at, it is the other root, -2 b / a, or 0
-/// for a ray that points outwards.
-inline double distance_out(const QuadricOnRay& q) {
-  const double root = std::sqrt(std::max(0.0, q.b * q.b - q.a * q.c));
-  if (q.b > 0.0) return std::max(0.0, -q.c / (q.b + root));
-  return q.a > 0.0 ? std::max(0.0, (root - q.b) / q.a) : std::numeric_limits<double>::infinity();
+  return s.numbers().on_ray(core::triple(origin), core::triple(direction));
 }
 
 /// The part of a ray's line that is inside a convex set: distances (mm) from low to high; empty where low is

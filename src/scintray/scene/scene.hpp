@@ -138,8 +138,9 @@ struct Region {
   core::AcceleratorId accelerator;
   std::uint32_t first_link = 0;  ///< of its triangles', in SceneRecords::links
   bool rotated = false;          ///< `rotation` is not the identity
-  /// Photons may be traced in lanes, and gain by it: not rotated, bounded by planes, and most of the boundary
-  /// smooth, so that they are often totally reflected, or with surfaces for lanes (lane_surface_at.hpp).
+  /// Photons may be traced in lanes, and gain by it: not rotated, bounded by planes or one convex body, and
+  /// most of the boundary smooth, so that they are often totally reflected, or bounded by planes with
+  /// surfaces for lanes (lane_surface_at.hpp).
   bool in_lanes = false;
   bool curved = false;                                           ///< its accelerator has exact bodies
   core::PlainVec3 centre = core::Vec3(core::Vec3::Zero());       ///< origin of the region's frame, mm

@@ -5,6 +5,7 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/scene/boundary.hpp"
+#include "scintray/transport/detail/lane_faces.hpp"
 #include "scintray/transport/detail/step_parts.hpp"
 #include "scintray/transport/lane_width.hpp"
 
@@ -16,17 +17,6 @@ namespace {
 /// the first level of the cache.
 constexpr std::size_t kTravellers = 128;
 
-LanePlanes lane_planes(const scene::Boundary& boundary) {
-  using Plane = scene::BoundingPlane;
-  static_assert(std::is_standard_layout_v<Plane> && offsetof(Plane, normal) == 0 &&
-                offsetof(Plane, offset) == 3 * sizeof(double) && sizeof(Plane) % sizeof(double) == 0);
-  return {reinterpret_cast<const double*>(boundary.planes.data()), sizeof(Plane) / sizeof(double),
-          static_cast<std::uint32_t>(boundary.planes.size()), boundary.opposite_planes};
-}
-
-void copy(const core::PlainVec3& from, double (&to)[3]) {
-  for (int axis = 0; axis < 3; ++axis) to[axis] = from[axis];
-}
 core::PlainVec3 vec(const double (&from)[3]) { return {from[0], from[1], from[2]}; }
 
 }  // namespace
@@ -37,12 +27,19 @@ Batch::Batch(const scene::Scene& scene, const PropagationLimits& limits, int lan
       limits_(limits),
       kinds_(kinds),
       propagate_(propagate_lanes(lane_width)),
+      propagate_in_body_(propagate_lanes_in_body(lane_width)),
       surface_lanes_(scene, limits, run_lanes(lane_width)) {
   const std::vector<int>& widths = lane_widths();
   if (std::find(widths.begin(), widths.end(), lane_width) == widths.end())
     throw core::InternalError("this processor has no lanes of width " + std::to_string(lane_width));
-  for (const auto& accelerator : scene.accelerators)
-    most_planes_ = std::max(most_planes_, accelerator->plane_count());
+  faces_.resize(scene.accelerators.size());
+  for (std::uint32_t i = 0; i < scene.regions.size(); ++i) {
+    const core::RegionId region(i);
+    const core::AcceleratorId accelerator = scene.regions[region].accelerator;
+    if (kinds[region] != LaneKind::smooth || !faces_[accelerator].list().empty()) continue;
+    faces_[accelerator] = LaneFaces(*scene.accelerators[accelerator]);
+    most_faces_ = std::max(most_faces_, faces_[accelerator].list().size());
+  }
 }
 
 const std::vector<TracedPhoton>& Batch::trace(std::uint64_t count, Stream stream, Emit emit) {
@@ -52,7 +49,7 @@ const std::vector<TracedPhoton>& Batch::trace(std::uint64_t count, Stream stream
   emit_ = emit;
   traced_.resize(count);
   travellers_.resize(std::min<std::uint64_t>(count, kTravellers));
-  least_sin2_.resize(travellers_.size() * most_planes_);
+  least_sin2_.resize(travellers_.size() * most_faces_);
   for (std::uint32_t i = 0; i < travellers_.size(); ++i) replace(i);
   while (!alone_.empty() || !waiting_.empty() || !for_surface_lanes_.empty() || !surface_lanes_.empty()) {
     while (!alone_.empty()) {
@@ -132,21 +129,24 @@ void Batch::trace_in_lanes() {
 }
 
 void Batch::propagate(const Waiting* first, const Waiting* last) {
-  const scene::Boundary& boundary = scene_.accelerators[first->accelerator]->boundary();
+  const LaneFaces& faces = faces_[first->accelerator];
   const LaneLimits limits{static_cast<double>(limits_.interactions), limits_.time_ns};
   const auto count = static_cast<std::size_t>(last - first);
   if (work_.size() < count) work_.resize(count);
-  for (std::size_t i = 0; i < count; ++i) set_work(first[i].traveller, work_[i]);
-  propagate_(lane_planes(boundary), limits, work_.data(), count);
-  for (std::size_t i = 0; i < count; ++i) finish(work_[i], boundary, first[i].traveller);
+  for (std::size_t i = 0; i < count; ++i) set_work(first[i].traveller, faces, work_[i]);
+  if (faces.has_quadrics())
+    propagate_in_body_(faces.body(), limits, work_.data(), count);
+  else
+    propagate_(faces.planes(), limits, work_.data(), count);
+  for (std::size_t i = 0; i < count; ++i) finish(work_[i], faces, first[i].traveller);
 }
 
-void Batch::set_work(std::uint32_t index, LaneWork& work) {
+void Batch::set_work(std::uint32_t index, const LaneFaces& faces, LaneWork& work) {
   Traveller& traveller = travellers_[index];
   const source::Photon& photon = traveller.photon;
-  double* const least_sin2 = least_sin2_.data() + index * most_planes_;
+  double* const least_sin2 = least_sin2_.data() + index * most_faces_;
   if (traveller.angles_of != photon.region || traveller.angles_nm != photon.wavelength_nm)
-    set_critical_angles(traveller, least_sin2);
+    set_critical_angles(traveller, faces, least_sin2);
   copy(photon.position, work.position);
   copy(photon.ray.direction, work.direction);
   copy(photon.ray.polarisation, work.polarisation);
@@ -158,20 +158,21 @@ void Batch::set_work(std::uint32_t index, LaneWork& work) {
   work.interactions = photon.interactions;
   copy(scene_.regions[photon.region].centre, work.centre);
   work.least_sin2 = least_sin2;
+  work.left = faces.left_at(photon.on_triangle);
 }
 
-void Batch::set_critical_angles(Traveller& traveller, double* least_sin2) const {
+void Batch::set_critical_angles(Traveller& traveller, const LaneFaces& faces, double* least_sin2) const {
   const source::Photon& photon = traveller.photon;
   const scene::Region& region = scene_.regions[photon.region];
   const scene::BoundaryLink* const links = scene_.links_of(region);
   core::MediumId known_medium;
   double known_sin2 = kNoTotalReflection;
-  for (const scene::BoundingPlane& plane : scene_.accelerator(region).boundary().planes) {
-    if (plane.triangles_begin != plane.triangles_end) {
+  for (const LaneFaces::Face& face : faces.list()) {
+    if (face.mixed) {
       *least_sin2++ = kManyRegions;
       continue;
     }
-    const core::MediumId medium = links[plane.first].smooth_to;
+    const core::MediumId medium = links[face.triangle].smooth_to;
     if (medium != known_medium) {
       known_medium = medium;
       known_sin2 = critical_sin2(scene_, medium, photon);
@@ -182,7 +183,7 @@ void Batch::set_critical_angles(Traveller& traveller, double* least_sin2) const 
   traveller.angles_nm = photon.wavelength_nm;
 }
 
-void Batch::finish(const LaneWork& work, const scene::Boundary& boundary, std::uint32_t index) {
+void Batch::finish(const LaneWork& work, const LaneFaces& faces, std::uint32_t index) {
   Traveller& traveller = travellers_[index];
   source::Photon& photon = traveller.photon;
   photon.position = vec(work.position);
@@ -192,12 +193,14 @@ void Batch::finish(const LaneWork& work, const scene::Boundary& boundary, std::u
   photon.time_ns = work.time_ns;
   photon.optical_depth = work.depth_left;
   photon.interactions = static_cast<std::uint32_t>(work.interactions);
+  if (faces.has_quadrics() && work.left != faces.left_at(photon.on_triangle))
+    photon.on_triangle = faces.list()[static_cast<std::size_t>(work.left)].triangle;
   traveller.segments += work.segments;
   if (work.end == LaneEnd::unclear) return alone_.push_back(index);
   Propagation propagation;
   if (work.end != LaneEnd::bulk) {
     propagation.end = work.end == LaneEnd::total ? PropagationEnd::total : PropagationEnd::boundary;
-    propagation.triangle = boundary.planes[work.plane].first;
+    propagation.triangle = faces.list()[work.face].triangle;
     propagation.cosine = work.cosine;
   } else {
     propagation.end = PropagationEnd::bulk;

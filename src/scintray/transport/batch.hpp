@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "scintray/core/function_ref.hpp"
-#include "scintray/scene/boundary.hpp"
-#include "scintray/transport/detail/lanes/lane_kernel.hpp"
+#include "scintray/transport/detail/lane_faces.hpp"
 #include "scintray/transport/detail/surface_lanes.hpp"
 #include "scintray/transport/step.hpp"
 
@@ -41,9 +40,10 @@ struct BatchCounts {
 };
 
 /// Traces photons that need no record of their steps: the same photons, to the last bit, as step() does one
-/// by one, for any width of the lanes. Photons in smooth regions that are bounded by planes are propagated in
-/// lanes (lane_kernel.hpp); in those with rough faces and reflectors they stay in lanes through what happens
-/// at their surfaces (lane_pool.hpp); everything else is done for each alone.
+/// by one, for any width of the lanes. Photons in smooth regions that are bounded by planes, or by a convex
+/// body of planes and quadrics, are propagated in lanes (lane_kernel.hpp); in those with rough faces and
+/// reflectors they stay in lanes through what happens at their surfaces (lane_pool.hpp); everything else is
+/// done for each alone.
 class Batch {
  public:
   /// @param limits      without `passed`
@@ -82,9 +82,9 @@ class Batch {
   void trace_in_lanes();
   void propagate(const Waiting* first, const Waiting* last);
   /// All of `work` but the results, in its place: copies of what was just written wait for it.
-  void set_work(std::uint32_t traveller, LaneWork& work);
-  void set_critical_angles(Traveller& traveller, double* least_sin2) const;
-  void finish(const LaneWork& work, const scene::Boundary& boundary, std::uint32_t traveller);
+  void set_work(std::uint32_t traveller, const LaneFaces& faces, LaneWork& work);
+  void set_critical_angles(Traveller& traveller, const LaneFaces& faces, double* least_sin2) const;
+  void finish(const LaneWork& work, const LaneFaces& faces, std::uint32_t traveller);
   /// True when the photon goes on after the step; else its end is noted, and the next photon takes its place.
   bool goes_on(Traveller& traveller, const Step& taken);
   void replace(std::uint32_t traveller);
@@ -93,10 +93,12 @@ class Batch {
   PropagationLimits limits_;
   const LaneKinds& kinds_;
   PropagateLanes propagate_;  ///< null: no lanes
+  PropagateLanesInBody propagate_in_body_;
   SurfaceLanes surface_lanes_;
-  std::size_t most_planes_ = 0;
+  core::IdVector<core::AcceleratorId, LaneFaces> faces_;  ///< of those of LaneKind::smooth
+  std::size_t most_faces_ = 0;
   std::vector<Traveller> travellers_;
-  std::vector<double> least_sin2_;  ///< per traveller and plane: critical angles, most_planes_ each
+  std::vector<double> least_sin2_;  ///< per traveller and face: critical angles, most_faces_ each
   std::vector<std::uint32_t> alone_, for_surface_lanes_;
   std::vector<Waiting> waiting_, in_lanes_;
   std::vector<LaneWork> work_;

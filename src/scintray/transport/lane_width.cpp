@@ -60,6 +60,21 @@ PropagateLanes propagate_lanes(int width) {
   }
 }
 
+PropagateLanesInBody propagate_lanes_in_body(int width) {
+  switch (width) {
+#if defined(__x86_64__)
+    case 2:
+      return propagate_lanes_in_body_2;
+    case 4:
+      return propagate_lanes_in_body_4;
+    case 8:
+      return propagate_lanes_in_body_8;
+#endif
+    default:
+      return nullptr;
+  }
+}
+
 RunLanes run_lanes(int width) {
   switch (width) {
 #if defined(__x86_64__)

@@ -114,9 +114,10 @@ void link_smooth_media(Scene& scene) {
       link.smooth_to = scene.regions[link.from_back ? interface.front : interface.back].medium;
   }
   for (Region& region : scene.regions) {
-    if (region.rotated || !scene.accelerator(region).uses_planes()) continue;
+    const Accelerator& accelerator = scene.accelerator(region);
+    if (region.rotated || !(accelerator.uses_planes() || accelerator.is_convex_body())) continue;
     const LaneShares shares = lane_shares(scene, region);
-    region.in_lanes = shares.smooth > 0.5 || shares.known > 0.5;
+    region.in_lanes = shares.smooth > 0.5 || (shares.known > 0.5 && !region.curved);
   }
 }
 

@@ -9,6 +9,7 @@ LaneKind lane_kind(const scene::Scene& scene, core::RegionId region, int lane_wi
   const scene::LaneShares shares = scene::lane_shares(scene, scene.regions[region]);
   // With few total reflections in a row, entering and leaving the lanes costs more than they save.
   if (shares.smooth > 0.5) return shares.total > 0.5 ? LaneKind::smooth : LaneKind::none;
+  if (scene.regions[region].curved) return LaneKind::none;
   return run_lanes(lane_width) ? LaneKind::surfaces : LaneKind::none;
 }
 

@@ -29,8 +29,8 @@ constexpr double kFirstSpan = 0.05, kLeastSpan = 1e-4, kMostSpan = 0.15;
 /// Target noise of a difference, relative to the difference, and the limit of its widening for that.
 constexpr double kWantedNoise = 0.1, kMostWider = 5.0;
 constexpr int kMostEstimates = 4, kMostRounds = 4;
-/// Noise of the slopes that errors may have, as noise_share_of, and the number of sets of random numbers that are used
-/// to reach it.
+/// Noise of the slopes that errors may have, as noise_share_of, and the number of sets of random numbers that
+/// are used to reach it.
 constexpr double kNoiseOfErrors = 0.02;
 constexpr std::uint64_t kMostDraws = 5;
 /// Number of shorter steps that GSL may try before the search for a decrease is abandoned.

@@ -1,6 +1,6 @@
 #pragma once
-/// Propagation of several photons at once, in the lanes of vector registers, through regions that are bounded
-/// by planes.
+/// Propagation of several photons at once, in the lanes of vector registers, through convex regions that are
+/// bounded by planes, or by planes and quadrics of revolution.
 ///
 /// This header has plain data alone: it is included by files that are compiled for instruction sets which not
 /// every processor has, and a function of a common header, compiled there, could be the one that the linker
@@ -14,9 +14,9 @@ namespace scintray::transport {
 /// The end of a photon's way through its region.
 enum class LaneEnd : std::uint32_t {
   bulk,      ///< the next event is in the medium; the photon is where its last segment began
-  boundary,  ///< the photon is on a plane at which no total reflection follows
+  boundary,  ///< the photon is on a face at which no total reflection follows
   total,     ///< it was totally reflected, and the limits are reached
-  unclear,   ///< the next plane leads to several regions; the photon is where its last segment began
+  unclear,   ///< the next face leads to several regions; the photon is where its last segment began
 };
 
 /// Planes around one shape of region, in the region's frame (mm).
@@ -32,10 +32,28 @@ struct LanePlanes {
   [[gnu::always_inline]] const double* plane(std::size_t i) const { return first + i * stride; }
 };
 
+/// Faces around one shape of region that is one convex body, in the region's frame (mm): planes, and after
+/// them quadrics of revolution (mesh/quadric_laws.hpp). Face i is face i of LaneWork.
+struct LaneBody {
+  /// A face as it is loaded: four numbers at a time.
+  struct Face {
+    double origin[3], axial;  ///< of a plane 0
+    double axis[3], slope;    ///< of a plane its normal, of unit length and out of the region; 0
+    double radius2;
+    double outwards;  ///< 1: normals of the quadric point out of the region, -1: into it; of a plane 1
+    double unused;    ///< so that the last ones are four
+    double offset;    ///< of a plane: the product of normal and any point of it
+  };
+  const Face* faces = nullptr;
+  std::uint32_t planes = 0, count = 0;
+};
+
 /// Values of LaneWork::least_sin2 above every sine squared.
-inline constexpr double kNoTotalReflection =
-    2.0;                                     ///< a plane without total reflection, or that is not smooth
-inline constexpr double kManyRegions = 4.0;  ///< a plane that leads to several regions
+inline constexpr double kNoTotalReflection = 2.0;  ///< a face without total reflection, or that is not smooth
+inline constexpr double kManyRegions = 4.0;        ///< a face that leads to several regions
+
+/// Of LaneWork::left.
+inline constexpr double kNoFace = -1.0;
 
 /// A photon to be propagated through its region, whose frame must not be rotated.
 struct LaneWork {
@@ -44,10 +62,11 @@ struct LaneWork {
   double group_index, attenuation_per_mm;             ///< absorption and scattering together
   double interactions;                                ///< boundary interactions so far: a whole number
   double centre[3];                                   ///< origin of the region's frame
-  const double* least_sin2;  ///< per plane: sine squared of the angle from which light is totally reflected
+  const double* least_sin2;  ///< per face: sine squared of the angle from which light is totally reflected
+  double left;  ///< of a body: face at which the photon is, as it was reflected there; kNoFace: at none
   // Results.
-  double cosine;           ///< of incidence on the plane, at a boundary and at a total reflection
-  std::uint32_t plane;     ///< reached, or unclear; not for LaneEnd::bulk
+  double cosine;           ///< of incidence on the face, at a boundary and at a total reflection
+  std::uint32_t face;      ///< reached, or unclear; not for LaneEnd::bulk
   std::uint32_t segments;  ///< straight segments; the last of an unclear end is not counted
   LaneEnd end;
 };
@@ -61,12 +80,19 @@ struct LaneLimits {
 using PropagateLanes = void (*)(const LanePlanes& planes, const LaneLimits& limits, LaneWork* photons,
                                 std::size_t count);
 
-/// The kernel of a width of lane_widths(); null for 1.
+using PropagateLanesInBody = void (*)(const LaneBody& body, const LaneLimits& limits, LaneWork* photons,
+                                      std::size_t count);
+
+/// The kernels of a width of lane_widths(); null for 1.
 PropagateLanes propagate_lanes(int width);
+PropagateLanesInBody propagate_lanes_in_body(int width);
 
 // One for each width that this build has; defined where its instruction set is compiled.
 void propagate_lanes_2(const LanePlanes&, const LaneLimits&, LaneWork*, std::size_t);
 void propagate_lanes_4(const LanePlanes&, const LaneLimits&, LaneWork*, std::size_t);
 void propagate_lanes_8(const LanePlanes&, const LaneLimits&, LaneWork*, std::size_t);
+void propagate_lanes_in_body_2(const LaneBody&, const LaneLimits&, LaneWork*, std::size_t);
+void propagate_lanes_in_body_4(const LaneBody&, const LaneLimits&, LaneWork*, std::size_t);
+void propagate_lanes_in_body_8(const LaneBody&, const LaneLimits&, LaneWork*, std::size_t);
 
 }  // namespace scintray::transport

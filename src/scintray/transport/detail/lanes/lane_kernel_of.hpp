@@ -2,23 +2,28 @@
 /// The kernel of lane_kernel.hpp for one instruction set. Included by one file for each.
 
 #include "scintray/transport/detail/lanes/lane_kernel.hpp"
-#include "scintray/transport/detail/lanes/lane_planes.hpp"
+#include "scintray/transport/detail/lanes/lane_numbers.hpp"
 
 namespace scintray::transport {
 namespace {
 
 /// The photons in the lanes. A lane whose photon has ended is filled with the next one at once; without a
 /// next one it repeats another lane's photon, and its result is not stored.
-template <typename Arch>
+///
+/// @tparam Walls  LaneFlatWalls or LaneBodyWalls, of a number type
+template <typename Walls>
 class LanePropagation {
-  using Real = LaneReal<Arch>;
-  using Mask = LaneMask<Arch>;
+  using Real = typename Walls::Number;
+  using Mask = typename Real::Mask;
   using Vector = core::Triple<Real>;
+  using Numbers = LaneNumbers<Real>;
+  using Numbers3 = LaneNumbers3<Real>;
   static constexpr std::size_t kWidth = Real::kWidth;
 
  public:
-  LanePropagation(const LanePlanes& planes, const LaneLimits& limits, LaneWork* photons, std::size_t count)
-      : planes_(planes), limits_(limits), next_(photons), last_(photons + count) {}
+  LanePropagation(const typename Walls::Region& region, const LaneLimits& limits, LaneWork* photons,
+                  std::size_t count)
+      : walls_(region), limits_(limits), next_(photons), last_(photons + count) {}
 
   void run() {
     for (std::size_t lane = 0; lane < kWidth; ++lane) {
@@ -33,26 +38,6 @@ class LanePropagation {
   }
 
  private:
-  struct alignas(64) Numbers {
-    double of[kWidth];
-    Real load() const { return Real::load(of); }
-    void store(const Real& value) { value.store(of); }
-  };
-  struct Numbers3 {
-    Numbers x, y, z;
-    Vector load() const { return {x.load(), y.load(), z.load()}; }
-    void store(const Vector& value) { x.store(value.x), y.store(value.y), z.store(value.z); }
-    void set(std::size_t lane, const double* from) {
-      x.of[lane] = from[0], y.of[lane] = from[1], z.of[lane] = from[2];
-    }
-    void copy(std::size_t from, std::size_t to) {
-      x.of[to] = x.of[from], y.of[to] = y.of[from], z.of[to] = z.of[from];
-    }
-    void get(std::size_t lane, double* to) const {
-      to[0] = x.of[lane], to[1] = y.of[lane], to[2] = z.of[lane];
-    }
-  };
-
   void fill(std::size_t lane, LaneWork* photon) {
     set(lane, *photon);
     photon_[lane] = photon;
@@ -71,6 +56,7 @@ class LanePropagation {
     for (Numbers* const numbers : {&path_, &time_, &depth_, &group_, &attenuation_, &interactions_})
       numbers->of[to] = numbers->of[from];
     least_sin2_[to] = least_sin2_[from];
+    walls_.copy(from, to);
   }
   void set(std::size_t lane, const LaneWork& from) {
     position_.set(lane, from.position);
@@ -84,6 +70,7 @@ class LanePropagation {
     attenuation_.of[lane] = from.attenuation_per_mm;
     interactions_.of[lane] = from.interactions;
     least_sin2_[lane] = from.least_sin2;
+    walls_.set(lane, from);
     begun_[lane] = segments_;
   }
 
@@ -96,36 +83,27 @@ class LanePropagation {
     Vector position = position_.load(), direction = direction_.load(), polarisation = polarisation_.load();
     Real path = path_.load(), time = time_.load(), depth_left = depth_.load(),
          interactions = interactions_.load();
-    Numbers plane_numbers, least;
-    Numbers3 normals;
+    Numbers faces, least;
     for (;;) {
       ++segments_;
       const Vector local = position - centre;
-      LaneAhead<Real> ahead;
-      const auto take = [&](std::uint32_t i, const Real& second_mm) {
-        const double* const p = planes_.plane(i);
-        ahead.take({Real(p[0]), Real(p[1]), Real(p[2])}, Real(p[3]), second_mm, local, direction, i);
-      };
-      for (std::uint32_t i = 0; i < planes_.opposite; i += 2) take(i, Real(planes_.plane(i + 1)[3]));
-      for (std::uint32_t i = planes_.opposite; i < planes_.count; ++i)
-        take(i, Real(std::numeric_limits<double>::infinity()));
-      const Real nearest = select(ahead.distance_mm < zero, zero, ahead.distance_mm), cosine = ahead.cosine;
-      plane_numbers.store(ahead.plane);
-      for (std::size_t lane = 0; lane < kWidth; ++lane) {
-        const auto at = static_cast<std::size_t>(plane_numbers.of[lane]);
-        least.of[lane] = least_sin2_[lane][at];
-        normals.set(lane, planes_.plane(at));
-      }
+      const typename Walls::Ahead ahead = walls_.nearest(local, direction);
+      const Real nearest = select(ahead.distance_mm < zero, zero, ahead.distance_mm);
+      faces.store(ahead.plane);
+      for (std::size_t lane = 0; lane < kWidth; ++lane)
+        least.of[lane] = least_sin2_[lane][static_cast<std::size_t>(faces.of[lane])];
       const Real least_sin2 = least.load();
       const Real depth = attenuation * nearest;
-      const Mask stays =
-          (depth > depth_left) | (least_sin2 > Real(0.5 * (kNoTotalReflection + kManyRegions)));
+      const Mask stays = (depth > depth_left) | walls_.none(ahead) |
+                         (least_sin2 > Real(0.5 * (kNoTotalReflection + kManyRegions)));
+      Vector there = position + nearest * direction;
+      const LaneIncidence<Real> at = walls_.arrive(faces, ahead, direction, centre, there);
+      const Vector normal = at.normal;
+      const Real cosine = at.cosine;
       const Mask total = one - cosine * cosine >= least_sin2;
-      const Vector there = position + nearest * direction;
       const Real there_path = path + nearest, there_depth = depth_left - depth,
                  there_time = time + nearest * group * Real(kTimePerLength);
       // optics::reflect.
-      const Vector normal = normals.load();
       const Vector reflected = direction - (two * cosine) * normal;
       const Vector reflected_polarisation = -core::mirrored(polarisation, normal);
       const Real counted = interactions + one;
@@ -133,8 +111,10 @@ class LanePropagation {
       if (all(total & within & !stays)) {
         position = there, direction = reflected, polarisation = reflected_polarisation;
         path = there_path, time = there_time, depth_left = there_depth, interactions = counted;
+        walls_.leave(ahead);
         continue;
       }
+      walls_.leave(ahead, stays);
       position_.store(select(stays, position, there));
       path_.store(select(stays, path, there_path));
       time_.store(select(stays, time, there_time));
@@ -151,13 +131,13 @@ class LanePropagation {
     }
     for (std::size_t lane = 0; lane < kWidth; ++lane)
       if (const int code = static_cast<int>(code_.of[lane]); code != kGoesOn)
-        end(lane, kEnds[code], static_cast<std::uint32_t>(plane_numbers.of[lane]));
+        end(lane, kEnds[code], static_cast<std::uint32_t>(faces.of[lane]));
   }
 
   static constexpr int kGoesOn = 4;
   static constexpr LaneEnd kEnds[] = {LaneEnd::unclear, LaneEnd::bulk, LaneEnd::boundary, LaneEnd::total};
 
-  void end(std::size_t lane, LaneEnd how, std::uint32_t plane) {
+  void end(std::size_t lane, LaneEnd how, std::uint32_t face) {
     LaneWork* const photon = photon_[lane];
     if (!photon) return;
     position_.get(lane, photon->position);
@@ -168,7 +148,8 @@ class LanePropagation {
     photon->depth_left = depth_.of[lane];
     photon->interactions = interactions_.of[lane];
     photon->cosine = cosine_.of[lane];
-    photon->plane = plane;
+    photon->face = face;
+    walls_.get(lane, *photon);
     photon->segments = segments_ - begun_[lane] - (how == LaneEnd::unclear ? 1 : 0);
     photon->end = how;
     --busy_;
@@ -176,7 +157,7 @@ class LanePropagation {
     if (next_ != last_) fill(lane, next_++);
   }
 
-  const LanePlanes& planes_;
+  Walls walls_;
   const LaneLimits& limits_;
   LaneWork *next_, *last_;
   std::size_t busy_ = 0;

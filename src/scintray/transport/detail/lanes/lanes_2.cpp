@@ -1,10 +1,17 @@
+#include "scintray/transport/detail/lanes/lane_body_walls.hpp"
+#include "scintray/transport/detail/lanes/lane_flat_walls.hpp"
 #include "scintray/transport/detail/lanes/lane_kernel_of.hpp"
 
 namespace scintray::transport {
 
 void propagate_lanes_2(const LanePlanes& planes, const LaneLimits& limits, LaneWork* photons,
                        std::size_t count) {
-  LanePropagation<xsimd::sse2>(planes, limits, photons, count).run();
+  LanePropagation<LaneFlatWalls<LaneReal<xsimd::sse2>>>(planes, limits, photons, count).run();
+}
+
+void propagate_lanes_in_body_2(const LaneBody& body, const LaneLimits& limits, LaneWork* photons,
+                               std::size_t count) {
+  LanePropagation<LaneBodyWalls<LaneReal<xsimd::sse2>>>(body, limits, photons, count).run();
 }
 
 }  // namespace scintray::transport

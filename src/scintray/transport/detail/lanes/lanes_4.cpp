@@ -1,3 +1,5 @@
+#include "scintray/transport/detail/lanes/lane_body_walls.hpp"
+#include "scintray/transport/detail/lanes/lane_flat_walls.hpp"
 #include "scintray/transport/detail/lanes/lane_kernel_of.hpp"
 #include "scintray/transport/detail/lanes/lane_passes.hpp"
 
@@ -5,7 +7,12 @@ namespace scintray::transport {
 
 void propagate_lanes_4(const LanePlanes& planes, const LaneLimits& limits, LaneWork* photons,
                        std::size_t count) {
-  LanePropagation<xsimd::avx2>(planes, limits, photons, count).run();
+  LanePropagation<LaneFlatWalls<LaneReal<xsimd::avx2>>>(planes, limits, photons, count).run();
+}
+
+void propagate_lanes_in_body_4(const LaneBody& body, const LaneLimits& limits, LaneWork* photons,
+                               std::size_t count) {
+  LanePropagation<LaneBodyWalls<LaneReal<xsimd::avx2>>>(body, limits, photons, count).run();
 }
 
 void run_lanes_4(LanePool& pool) { LanePasses<LaneRealPair<xsimd::avx2>, LaneDraws::one_by_one>(pool).run(); }

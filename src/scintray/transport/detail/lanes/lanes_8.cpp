@@ -1,3 +1,5 @@
+#include "scintray/transport/detail/lanes/lane_body_walls.hpp"
+#include "scintray/transport/detail/lanes/lane_flat_walls.hpp"
 #include "scintray/transport/detail/lanes/lane_kernel_of.hpp"
 #include "scintray/transport/detail/lanes/lane_passes.hpp"
 
@@ -5,7 +7,12 @@ namespace scintray::transport {
 
 void propagate_lanes_8(const LanePlanes& planes, const LaneLimits& limits, LaneWork* photons,
                        std::size_t count) {
-  LanePropagation<xsimd::avx512f>(planes, limits, photons, count).run();
+  LanePropagation<LaneFlatWalls<LaneReal<xsimd::avx512f>>>(planes, limits, photons, count).run();
+}
+
+void propagate_lanes_in_body_8(const LaneBody& body, const LaneLimits& limits, LaneWork* photons,
+                               std::size_t count) {
+  LanePropagation<LaneBodyWalls<LaneReal<xsimd::avx512f>>>(body, limits, photons, count).run();
 }
 
 void run_lanes_8(LanePool& pool) {

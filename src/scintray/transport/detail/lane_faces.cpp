@@ -1,0 +1,66 @@
+#include "scintray/transport/detail/lane_faces.hpp"
+
+#include <cstddef>
+
+namespace scintray::transport {
+
+namespace {
+
+LaneBody::Face numbers_of(const scene::BodyPlane& plane) {
+  LaneBody::Face face{};
+  copy(plane.normal, face.axis);
+  face.outwards = 1.0;
+  face.offset = plane.offset;
+  return face;
+}
+
+LaneBody::Face numbers_of(const scene::BodyQuadric& quadric) {
+  LaneBody::Face face{};
+  copy(quadric.surface.origin, face.origin);
+  copy(quadric.surface.axis, face.axis);
+  face.axial = quadric.surface.axial;
+  face.slope = quadric.surface.slope;
+  face.radius2 = quadric.surface.radius2;
+  face.outwards = quadric.around_region ? 1.0 : -1.0;
+  return face;
+}
+
+}  // namespace
+
+LaneFaces::LaneFaces(const scene::Accelerator& accelerator) : boundary_(&accelerator.boundary()) {
+  for (const scene::BoundingPlane& plane : boundary_->planes)
+    list_.push_back({plane.first, plane.triangles_begin != plane.triangles_end});
+  if (!accelerator.is_convex_body()) return;
+  const scene::ExactBodies& exact = boundary_->exact;
+  const scene::ExactBody& body = exact.bodies.front();
+  const auto add = [&](const auto& face) {
+    const scene::SurfaceTriangles& on = face.on;
+    list_.push_back({on.first == scene::kNoSurface ? body.first : on.first, on.begin != on.end});
+    numbers_.push_back(numbers_of(face));
+  };
+  for (std::uint32_t i = body.planes_begin; i < body.planes_end; ++i) add(exact.planes[i]);
+  flat_ = body.planes_end - body.planes_begin;
+  for (std::uint32_t i = body.quadrics_begin; i < body.quadrics_end; ++i) add(exact.quadrics[i]);
+}
+
+LanePlanes LaneFaces::planes() const {
+  using Plane = scene::BoundingPlane;
+  static_assert(std::is_standard_layout_v<Plane> && offsetof(Plane, normal) == 0 &&
+                offsetof(Plane, offset) == 3 * sizeof(double) && sizeof(Plane) % sizeof(double) == 0);
+  return {reinterpret_cast<const double*>(boundary_->planes.data()), sizeof(Plane) / sizeof(double),
+          static_cast<std::uint32_t>(boundary_->planes.size()), boundary_->opposite_planes};
+}
+
+LaneBody LaneFaces::body() const {
+  return {numbers_.data(), flat_, static_cast<std::uint32_t>(numbers_.size())};
+}
+
+double LaneFaces::left_at(std::uint32_t triangle) const {
+  if (triangle == scene::kNoTriangle || numbers_.empty()) return kNoFace;
+  const scene::ExactBodies& exact = boundary_->exact;
+  const std::uint32_t quadric = exact.quadric_of[triangle];
+  if (quadric == scene::kNoSurface) return kNoFace;
+  return static_cast<double>(flat_ + quadric - exact.bodies.front().quadrics_begin);
+}
+
+}  // namespace scintray::transport

@@ -1,0 +1,110 @@
+#pragma once
+/// The walls of a region that is one convex body of planes and quadrics, for LanePropagation: for each lane
+/// the numbers that ExactBodies::nearest and CurvedPropagation (propagation_states.hpp) have for one photon,
+/// in the same order.
+
+#include "scintray/mesh/quadric_laws.hpp"
+#include "scintray/transport/detail/lanes/lane_fours.hpp"
+#include "scintray/transport/detail/lanes/lane_kernel.hpp"
+#include "scintray/transport/detail/lanes/lane_numbers.hpp"
+#include "scintray/transport/detail/lanes/lane_planes.hpp"
+
+namespace scintray::transport {
+namespace {
+
+template <typename Real>
+class LaneBodyWalls {
+  using Mask = typename Real::Mask;
+  using Vector = core::Triple<Real>;
+
+ public:
+  using Number = Real;
+  using Region = LaneBody;
+  /// The nearest face so far.
+  struct Ahead {
+    Real distance_mm{std::numeric_limits<double>::infinity()}, plane{0.0};
+    Vector normal{Real(0.0), Real(0.0), Real(0.0)};  ///< of a plane
+  };
+  explicit LaneBodyWalls(const LaneBody& body) : body_(body) {
+    for (double& face : left_.of) face = kNoFace;
+  }
+
+  void set(std::size_t lane, const LaneWork& photon) { left_.of[lane] = photon.left; }
+  void get(std::size_t lane, LaneWork& photon) const { photon.left = left_.of[lane]; }
+  void copy(std::size_t from, std::size_t to) { left_.of[to] = left_.of[from]; }
+  void leave(const Ahead& ahead) { left_.store(ahead.plane); }
+  void leave(const Ahead& ahead, const Mask& stays) { left_.store(select(stays, left_.load(), ahead.plane)); }
+
+  Ahead nearest(const Vector& local, const Vector& direction) const {
+    const Real zero(0.0), left = left_.load();
+    Ahead ahead;
+    const auto take = [&ahead](const Mask& closer, const Real& distance_mm, const Real& face) {
+      ahead.distance_mm = select(closer, distance_mm, ahead.distance_mm);
+      ahead.plane = select(closer, face, ahead.plane);
+    };
+    for (std::uint32_t i = 0; i < body_.planes; ++i) {
+      const Vector normal = vector_of(body_.faces[i].axis);
+      const Real along = dot(normal, direction);
+      const Real distance = core::greatest((Real(body_.faces[i].offset) - dot(normal, local)) / along, zero);
+      const Mask closer = (along > zero) & (distance < ahead.distance_mm);
+      take(closer, distance, Real(static_cast<double>(i)));
+      ahead.normal = select(closer, normal, ahead.normal);
+    }
+    for (std::uint32_t i = body_.planes; i < body_.count; ++i) {
+      mesh::QuadricOnRayOf<Real> on_ray = quadric(body_.faces[i]).on_ray(local, direction);
+      const Real number(static_cast<double>(i));
+      on_ray.c = select(left == number, zero, on_ray.c);
+      const Real distance = mesh::distance_out(on_ray);
+      take(distance < ahead.distance_mm, distance, number);
+    }
+    return ahead;
+  }
+  /// Whether a lane's ray leaves through no face.
+  Mask none(const Ahead& ahead) const {
+    return ahead.distance_mm == Real(std::numeric_limits<double>::infinity());
+  }
+  /// Moves the point `there` (world) onto the face.
+  LaneIncidence<Real> arrive(const LaneNumbers<Real>& faces, const Ahead& ahead, const Vector& direction,
+                             const Vector& centre, Vector& there) const {
+    const Real zero(0.0);
+    const Mask flat = ahead.plane < Real(static_cast<double>(body_.planes));
+    const Wall wall = body_.count - body_.planes == 1 ? only_wall() : walls_at(faces);
+    there = there + select(flat, Vector{zero, zero, zero}, wall.quadric.correction(there - centre));
+    const Vector normal = select(flat, ahead.normal, wall.outwards * wall.quadric.normal(there - centre));
+    return {normal, dot(direction, normal)};
+  }
+
+ private:
+  /// A quadric, and LaneBody::Face::outwards of it; of a plane any numbers.
+  struct Wall {
+    mesh::QuadricOf<Real> quadric;
+    Real outwards;
+  };
+  Wall only_wall() const {
+    const LaneBody::Face& face = body_.faces[body_.planes];
+    return {quadric(face), Real(face.outwards)};
+  }
+  Wall walls_at(const LaneNumbers<Real>& faces) const {
+    const double *first[Real::kWidth], *second[Real::kWidth], *third[Real::kWidth];
+    for (std::size_t lane = 0; lane < Real::kWidth; ++lane) {
+      const LaneBody::Face& face = body_.faces[static_cast<std::size_t>(faces.of[lane])];
+      first[lane] = face.origin, second[lane] = face.axis, third[lane] = &face.radius2;
+    }
+    LaneFours<Real> a, b, c;
+    load_fours(first, a);
+    load_fours(second, b);
+    load_fours(third, c);
+    return {{{a.of[0], a.of[1], a.of[2]}, {b.of[0], b.of[1], b.of[2]}, a.of[3], b.of[3], c.of[0]}, c.of[1]};
+  }
+  static mesh::QuadricOf<Real> quadric(const LaneBody::Face& face) {
+    return {vector_of(face.origin), vector_of(face.axis), Real(face.axial), Real(face.slope),
+            Real(face.radius2)};
+  }
+  static Vector vector_of(const double (&of)[3]) { return {Real(of[0]), Real(of[1]), Real(of[2])}; }
+
+  const LaneBody& body_;
+  LaneNumbers<Real> left_;
+};
+
+}  // namespace
+}  // namespace scintray::transport

@@ -1,0 +1,113 @@
+#pragma once
+/// Loads and stores of four numbers that follow each other in memory, at a place of its own for each lane.
+
+#include "scintray/transport/detail/lanes/lane_number.hpp"
+
+namespace scintray::transport {
+
+/// Four numbers of each lane.
+template <typename Real>
+struct LaneFours {
+  Real of[4];
+};
+
+/// Stores four 64-bit numbers of each lane at two places of its own.
+static inline void store_fours(const LaneBits<xsimd::sse2>* words, std::uint64_t* const* first,
+                               std::uint64_t* const* second) {
+  for (int half = 0; half < 2; ++half) {
+    const __m128i a = words[2 * half].lanes, b = words[2 * half + 1].lanes;
+    const __m128i lanes[2] = {_mm_unpacklo_epi64(a, b), _mm_unpackhi_epi64(a, b)};
+    for (int lane = 0; lane < 2; ++lane) {
+      _mm_storeu_si128(reinterpret_cast<__m128i*>(first[lane] + 2 * half), lanes[lane]);
+      _mm_storeu_si128(reinterpret_cast<__m128i*>(second[lane] + 2 * half), lanes[lane]);
+    }
+  }
+}
+
+static inline void load_fours(const double* const* at, LaneFours<LaneReal<xsimd::sse2>>& to) {
+  for (int half = 0; half < 2; ++half) {
+    const __m128d a = _mm_loadu_pd(at[0] + 2 * half), b = _mm_loadu_pd(at[1] + 2 * half);
+    to.of[2 * half].lanes = _mm_unpacklo_pd(a, b);
+    to.of[2 * half + 1].lanes = _mm_unpackhi_pd(a, b);
+  }
+}
+
+#ifdef __AVX2__
+static inline void store_four(__m256i four, std::uint64_t* first, std::uint64_t* second) {
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(first), four);
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(second), four);
+}
+static inline void store_fours(const LaneBits<xsimd::avx2>* words, std::uint64_t* const* first,
+                               std::uint64_t* const* second) {
+  const __m256i a = words[0].lanes, b = words[1].lanes, c = words[2].lanes, d = words[3].lanes;
+  const __m256i ab = _mm256_unpacklo_epi64(a, b), ba = _mm256_unpackhi_epi64(a, b);
+  const __m256i cd = _mm256_unpacklo_epi64(c, d), dc = _mm256_unpackhi_epi64(c, d);
+  store_four(_mm256_permute2x128_si256(ab, cd, 0x20), first[0], second[0]);
+  store_four(_mm256_permute2x128_si256(ba, dc, 0x20), first[1], second[1]);
+  store_four(_mm256_permute2x128_si256(ab, cd, 0x31), first[2], second[2]);
+  store_four(_mm256_permute2x128_si256(ba, dc, 0x31), first[3], second[3]);
+}
+static inline void load_fours(const double* const* at, LaneFours<LaneReal<xsimd::avx2>>& to) {
+  const __m256d a = _mm256_loadu_pd(at[0]), b = _mm256_loadu_pd(at[1]);
+  const __m256d c = _mm256_loadu_pd(at[2]), d = _mm256_loadu_pd(at[3]);
+  const __m256d ab = _mm256_unpacklo_pd(a, b), ba = _mm256_unpackhi_pd(a, b);
+  const __m256d cd = _mm256_unpacklo_pd(c, d), dc = _mm256_unpackhi_pd(c, d);
+  to.of[0].lanes = _mm256_permute2f128_pd(ab, cd, 0x20);
+  to.of[1].lanes = _mm256_permute2f128_pd(ba, dc, 0x20);
+  to.of[2].lanes = _mm256_permute2f128_pd(ab, cd, 0x31);
+  to.of[3].lanes = _mm256_permute2f128_pd(ba, dc, 0x31);
+}
+#endif
+
+#ifdef __AVX512F__
+static inline void store_fours(const LaneBits<xsimd::avx512f>* words, std::uint64_t* const* first,
+                               std::uint64_t* const* second) {
+  const __m512i a = words[0].lanes, b = words[1].lanes, c = words[2].lanes, d = words[3].lanes;
+  const __m512i ab = _mm512_unpacklo_epi64(a, b), ba = _mm512_unpackhi_epi64(a, b);
+  const __m512i cd = _mm512_unpacklo_epi64(c, d), dc = _mm512_unpackhi_epi64(c, d);
+  // Quarter k of ab and cd has the numbers of lane 2 k, of ba and dc those of lane 2 k + 1.
+  const auto store = [&](__m512i low, __m512i high, int even) {
+    const __m512i front = _mm512_shuffle_i64x2(low, high, _MM_SHUFFLE(2, 0, 2, 0));
+    const __m512i back = _mm512_shuffle_i64x2(low, high, _MM_SHUFFLE(3, 1, 3, 1));
+    const __m512i fronts = _mm512_shuffle_i64x2(front, front, _MM_SHUFFLE(3, 1, 2, 0));
+    const __m512i backs = _mm512_shuffle_i64x2(back, back, _MM_SHUFFLE(3, 1, 2, 0));
+    store_four(_mm512_castsi512_si256(fronts), first[even], second[even]);
+    store_four(_mm512_extracti64x4_epi64(fronts, 1), first[even + 4], second[even + 4]);
+    store_four(_mm512_castsi512_si256(backs), first[even + 2], second[even + 2]);
+    store_four(_mm512_extracti64x4_epi64(backs, 1), first[even + 6], second[even + 6]);
+  };
+  store(ab, cd, 0);
+  store(ba, dc, 1);
+}
+static inline void load_fours(const double* const* at, LaneFours<LaneReal<xsimd::avx512f>>& to) {
+  const auto two = [&](int lane) {
+    return _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_loadu_pd(at[lane])),
+                              _mm256_loadu_pd(at[lane + 2]), 1);
+  };
+  const __m512d a = two(0), b = two(1), c = two(4), d = two(5);
+  const __m512d ab = _mm512_unpacklo_pd(a, b), ba = _mm512_unpackhi_pd(a, b);
+  const __m512d cd = _mm512_unpacklo_pd(c, d), dc = _mm512_unpackhi_pd(c, d);
+  to.of[0].lanes = _mm512_shuffle_f64x2(ab, cd, _MM_SHUFFLE(2, 0, 2, 0));
+  to.of[1].lanes = _mm512_shuffle_f64x2(ba, dc, _MM_SHUFFLE(2, 0, 2, 0));
+  to.of[2].lanes = _mm512_shuffle_f64x2(ab, cd, _MM_SHUFFLE(3, 1, 3, 1));
+  to.of[3].lanes = _mm512_shuffle_f64x2(ba, dc, _MM_SHUFFLE(3, 1, 3, 1));
+}
+#endif
+
+template <typename Arch>
+void store_fours(const LaneBitsPair<Arch>* words, std::uint64_t* const* first, std::uint64_t* const* second) {
+  constexpr std::size_t kHalf = LaneBits<Arch>::kWidth;
+  const LaneBits<Arch> a[] = {words[0].a, words[1].a, words[2].a, words[3].a};
+  const LaneBits<Arch> b[] = {words[0].b, words[1].b, words[2].b, words[3].b};
+  store_fours(a, first, second);
+  store_fours(b, first + kHalf, second + kHalf);
+}
+template <typename Arch>
+void load_fours(const double* const* at, LaneFours<LaneRealPair<Arch>>& to) {
+  LaneFours<LaneReal<Arch>> a, b;
+  load_fours(at, a);
+  load_fours(at + LaneReal<Arch>::kWidth, b);
+  for (int i = 0; i < 4; ++i) to.of[i] = {a.of[i], b.of[i]};
+}
+
+}  // namespace scintray::transport
