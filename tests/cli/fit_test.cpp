@@ -25,7 +25,7 @@ TEST_CASE("A fit prints its steps and what it found, and writes a file and a pag
   REQUIRE(ended.exit_code == cli::kSuccess);
   for (const char* words :
        {"start   chi-square", "step 1", "5 points, 1 parameter, a free scale, 1000 photons at each point",
-        "seed 3", "absorption length      8 mm", "2 to 50 mm", "chi-square", "degrees of freedom",
+        "seed 3", "absorption length", " 8 mm ", "2 to 50 mm", "chi-square", "degrees of freedom",
         "residual / error", "results  scene_fit.h5", "report   scene_fit.html"})
     CHECK(contains(ended.output, words));
   const h5::File file = h5::File::open(crystal.folder / "scene_fit.h5");
