@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "scintray/core/error.hpp"
-#include "scintray/scene/boundary.hpp"
 #include "scintray/transport/detail/lane_faces.hpp"
 #include "scintray/transport/detail/step_parts.hpp"
 #include "scintray/transport/lane_width.hpp"

@@ -338,13 +338,14 @@ bool FitSearch::estimate() {
     if (!options_.errors_from_scatter) residuals_.reweight(*curve_);
     if (!find_slopes(best_)) return false;
     Outlook next = outlook();
-    if (next.fall < kStraight || i + 1 == kMostEstimates) {
+    const auto is_last = [&] { return next.fall < kStraight || i + 1 == kMostEstimates; };
+    if (is_last()) {
       if (!repeat_slopes()) return false;
       next = outlook();
     }
     std::vector<double> at = best_;
     for (std::size_t j = 0; j < at.size(); ++j) at[j] = snapped(j, at[j] + next.step[static_cast<Index>(j)]);
-    const bool last = next.fall < kStraight || i + 1 == kMostEstimates;
+    const bool last = is_last();
     curve_ = carried_on(at);
     best_ = at;
     ++estimates_;

@@ -36,7 +36,7 @@ class LaneFlatWalls {
       take(i, Real(std::numeric_limits<double>::infinity()));
     return ahead;
   }
-  /// Whether a lane's ray leaves through no wall: through none that is closed.
+  /// Whether a lane's ray leaves through no wall: never, as the planes enclose the region.
   typename Real::Mask none(const LaneAhead<Real>& ahead) const { return ahead.cosine < Real(0.0); }
   LaneIncidence<Real> arrive(const LaneNumbers<Real>& faces, const LaneAhead<Real>& ahead, const Vector&,
                              const Vector&, Vector&) const {
