@@ -74,6 +74,32 @@ TEST_CASE("A part that another one covers entirely is reported with the places o
               {"nothing", "left", "'b'", "scene.toml:7:1"}, "change the priorities");
 }
 
+TEST_CASE("Principal axes of a birefringent medium: two perpendicular directions, of such a medium alone") {
+  const auto scene = [](const std::string& of_a, const std::string& more = "") {
+    return boxes(at("0", "2") + kPolished + of_a, at("4", "6") + kPolished, more);
+  };
+  const auto spar = [&](const std::string& of_a) {
+    std::string text =
+        scene(of_a,
+              "[media.spar]\nindex = { n = 1.6, z = { n = 1.5 } }\nabsorption = { none = true }\n"
+              "scattering = { none = true }\n");
+    return replaced(std::move(text), "name = \"a\"\nmedium = \"thin\"", "name = \"a\"\nmedium = \"spar\"");
+  };
+  check_scene(scene("principal_axes = { z = [0, 0, 1] }\n"),
+              {"\"a\" has principal axes", "one refractive index"}, {"[index.z]"});
+  const auto marked_at_key = [](std::string text, const std::string& key) {
+    text.erase(text.find("@@"), 2);
+    return text.insert(text.find(key), "@@");
+  };
+  check_scene(marked_at_key(spar("principal_axes = { z = [0, 0, 1], x = [1, 0, 1] }\n"), "[1, 0, 1]"),
+              {"not perpendicular"}, {"check the two directions"});
+  check_scene(marked_at_key(spar("principal_axes = { x = [1, 0, 0] }\n"), "{ x = [1, 0, 0]"), {"no \"z\""},
+              {"z = [0, 0, 1]"});
+  std::string ambient = replaced(spar(""), "ambient = \"air\"", "ambient = \"spar\"");
+  check_scene(marked_at_key(std::move(ambient), "\"spar\""), {"ambient medium", "birefringent"},
+              {"place it as a part"});
+}
+
 TEST_CASE("A medium without an index at the wavelengths in use is reported where it is named") {
   std::string scene =
       replaced(boxes(at("0", "2") + kPolished, at("4", "6") + kPolished), "\"420 nm\"", "\"600 nm\"");

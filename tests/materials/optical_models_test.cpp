@@ -184,6 +184,40 @@ TEST_CASE("curves of a film, a metal or a surface by angle must cover the wavele
   }
 }
 
+TEST_CASE("the axes of a birefringent medium are read, and checked") {
+  const std::string rest = "scattering = { none = true }\n";
+  const auto text = [&](const std::string& index, const std::string& absorption) {
+    return "index = { " + index + " }\nabsorption = { " + absorption + " }\n" + rest;
+  };
+  const auto read = [&](const std::string& index, const std::string& absorption) {
+    return database_with(DefinitionKind::medium, "mine", text(index, absorption)).medium("mine");
+  };
+  const auto wrong = [&](const std::string& index, const std::string& absorption) {
+    return problems_of([&] { read(index, absorption); });
+  };
+  CHECK(!read("n = 1.5", "none = true").birefringence);
+  const std::string falling = "{ wavelength = [400, 500], wavelength_unit = \"nm\", value = [1.8, 1.7] }";
+  const Medium uniaxial = read("n = " + falling + ", z = { n = 1.6, group = 1.65 }",
+                               "coefficient = \"0.1 1/mm\", y = { none = true }");
+  REQUIRE(uniaxial.birefringence);
+  const auto& [x, y, z] = uniaxial.birefringence->axes;
+  CHECK(x.index(400.0) == 1.8);
+  CHECK(y.index(500.0) == 1.7);
+  CHECK(z.index(400.0) == 1.6);
+  CHECK(z.group_index.value()(450.0) == 1.65);
+  CHECK(uniaxial.index(450.0) == doctest::Approx((1.75 + 1.75 + 1.6) / 3.0));
+  CHECK(y.absorption_per_mm(450.0) == 0.0);
+  CHECK(z.absorption_per_mm(450.0) == doctest::Approx(0.1));
+  CHECK(uniaxial.absorption_per_mm(450.0) == doctest::Approx(0.2 / 3.0));
+
+  CHECK(reports(wrong("n = 1.5, y = { n = 1.5 }", "none = true"), 1, "all the same"));
+  CHECK(reports(wrong("n = 1.5, z = { n = 0.5 }", "none = true"), 1, "between 1 and 5"));
+  CHECK(reports(wrong("n = 1.5", "none = true, z = { length = \"3 mm\" }"), 2, "of one refractive index"));
+  const std::string other = "{ wavelength = [600, 700], wavelength_unit = \"nm\", value = [1.8, 1.7] }";
+  CHECK(reports(wrong("n = " + falling + ", z = { n = " + other + " }", "none = true"), 1,
+                "no wavelengths in common"));
+}
+
 TEST_CASE("particles, group indices and what a sensor converts are read, and checked") {
   const std::string medium =
       "index = { n = 1.5, group = 1.7 }\nabsorption = { none = true }\nscattering = { none = true }\n";

@@ -82,6 +82,11 @@ TEST_CASE("published numbers come out of the files") {
 TEST_CASE("published numbers of iodides, plastics and metals come out of the files") {
   const MaterialDatabase& database = shipped_database();
   // Malitson 1965, table I (n_d); the Sellmeier sums of Li 1976 and Sultanova et al. 2009 by hand.
+  // n_o and n_e at 589 nm of the refractiveindex.info page of Ghosh 1999's coefficients.
+  const optics::Medium calcite = database.medium("calcite");
+  REQUIRE(calcite.birefringence);
+  CHECK(calcite.birefringence->axes[0].index(589.0) == doctest::Approx(1.6584).epsilon(1e-4));
+  CHECK(calcite.birefringence->axes[2].index(589.0) == doctest::Approx(1.4864).epsilon(1e-4));
   CHECK(database.medium("silica").index(587.5618) == doctest::Approx(1.45846).epsilon(1e-5));
   const auto sellmeier = [](double um, const std::vector<std::pair<double, double>>& terms) {
     double n2 = 1.0;
@@ -257,6 +262,7 @@ TEST_CASE("ten photosensors of five makers are shipped, and the media and reflec
                            "PMMA",
                            "polystyrene",
                            "glass",
+                           "calcite",
                            "silica",
                            "silicone_sylgard184",
                            "silicone_rtv615",

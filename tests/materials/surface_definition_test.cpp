@@ -78,6 +78,8 @@ TEST_CASE("a stack has a gap and a reflector together, and paint has no gap") {
   CHECK(overridden.reflector->specular_share == 0.9);
 
   CHECK(reports(surface_problems("model = \"smooth\"\nreflector = \"ESR\"\n"), 0, "without the gap"));
+  CHECK(reports(surface_problems("model = \"smooth\"\ngap = \"calcite\"\nreflector = \"ESR\"\n"), 2,
+                "birefringent"));
   CHECK(reports(surface_problems("model = \"smooth\"\ngap = \"air\"\n"), 2, "without a reflector"));
   CHECK(reports(surface_problems("model = \"painted\"\n"), 0, "no reflector"));
   CHECK(reports(surface_problems("model = \"painted\"\ngap = \"air\"\nreflector = \"ESR\"\n"), 2,

@@ -99,6 +99,31 @@ surface = "polished"
          more;
 }
 
+/// The crystal in a block of glass; its medium is birefringent, and the glass beside it is not.
+std::string birefringent_crystal(const std::string& surface) {
+  return R"(
+ambient = "vacuum"
+[[part]]
+name = "crystal"
+box = ["2 mm", "3 mm", "20 mm"]
+medium = "spar"
+surface = ")" +
+         surface + R"("
+principal_axes = { z = [1, 2, 3], x = [3, 0, -1] }
+[[part]]
+name = "slab"
+box = ["2 mm", "3 mm", "2 mm"]
+place = { touch = "crystal", side = "+z" }
+medium = "glass"
+surface = ")" +
+         surface + "\"\n" + sensor_and_source("2 mm") +
+         R"([media.spar]
+index = { n = 1.66, y = { n = 1.6 }, z = { n = 1.49 } }
+absorption = { length = "200 mm" }
+scattering = { length = "100 mm", kind = "rayleigh" }
+)";
+}
+
 /// Five rough faces, of which no two are parallel, and two that are.
 std::string prism() {
   return R"(
@@ -233,6 +258,8 @@ TEST_CASE("Results and photons are the same to the last bit for every width of t
   SUBCASE("paint, in part specular") { scene = crystal("paint", kPaint); }
   SUBCASE("polished, a gap and a Lambertian reflector") { scene = crystal("polished_lambertian_097"); }
   SUBCASE("unpolarised") { scene = crystal("roncali2013_unified_rough", "polarisation = \"unpolarised\"\n"); }
+  SUBCASE("birefringent") { scene = birefringent_crystal("polished"); }
+  SUBCASE("birefringent, facets") { scene = birefringent_crystal("roncali2013_unified_rough"); }
   SUBCASE("rough prism") { scene = prism(); }
   SUBCASE("rough, cut by interactions") {
     scene = crystal("backed", std::string(kBacked) + "[run]\nmax_interactions = 7\n");

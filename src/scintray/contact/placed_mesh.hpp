@@ -1,6 +1,7 @@
 #pragma once
 /// Parts in world coordinates, with a surface on each face: the input of contact finding.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,9 @@ struct PlacedMesh {
   int priority = 0;                    ///< see PartSpec
   config::NameRef medium;              ///< empty only where the part is a sensor
   config::NameRef sensor;
+  /// Of a birefringent medium, in columns, in the frame of the part before its rotation; nothing: that
+  /// frame's axes.
+  std::optional<Eigen::Matrix3d> principal_axes;
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   mesh::MeshDiagnosis diagnosis;
   std::vector<std::string> notes;  ///< what the import left out or reversed, and later changes

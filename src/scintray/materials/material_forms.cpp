@@ -9,17 +9,16 @@
 
 namespace scintray::materials {
 
-namespace {
-
-constexpr core::Word<optics::ScatteringKind> kScatteringKinds[] = {
-    {"rayleigh", optics::ScatteringKind::rayleigh}, {"isotropic", optics::ScatteringKind::isotropic}};
-
-/// Reports unless every wavelength of a table is positive.
 void expect_wavelengths(const config::TomlTable& block, const std::string& key, const core::Curve& curve) {
   if (curve.is_constant() && curve.x().front() == 0.0) return;
   block.expect(key, curve.x().front() > 0.0, "\"" + key + "\" has a wavelength that is not positive",
                "give wavelengths in nm, or photon energies in eV");
 }
+
+namespace {
+
+constexpr core::Word<optics::ScatteringKind> kScatteringKinds[] = {
+    {"rayleigh", optics::ScatteringKind::rayleigh}, {"isotropic", optics::ScatteringKind::isotropic}};
 
 /// Tabulates n(wavelength) over `range` of a formula's table. `index_at` takes 1/wavelength^2 in 1/um^2 and
 /// returns a non-finite value where the formula is not defined.
@@ -88,6 +87,8 @@ constexpr core::Word<CurveReader> kIndexForms[] = {
     {"sellmeier", [](const config::TomlTable& block) { return read_sellmeier(block.table("sellmeier")); }},
     {"cauchy", [](const config::TomlTable& block) { return read_cauchy(block.table("cauchy")); }}};
 
+}  // namespace
+
 core::Curve read_index(const config::TomlTable& block) {
   const core::Word<CurveReader>* form = block.one_of(kIndexForms, true);
   if (!form) return core::Curve::constant(1.0);
@@ -99,6 +100,17 @@ core::Curve read_index(const config::TomlTable& block) {
   expect_wavelengths(block, form->word, index);
   return index;
 }
+
+std::optional<core::Curve> read_group_index(const config::TomlTable& block) {
+  std::optional<core::Curve> group = block.optional_curve("group", core::Dimension::dimensionless);
+  if (!group) return std::nullopt;
+  block.expect("group", group->min_y() >= 1.0 && group->max_y() <= 10.0,
+               "a group index lies between 1 and 10", "it is the speed of light over the group velocity");
+  expect_wavelengths(block, "group", *group);
+  return group;
+}
+
+namespace {
 
 core::Curve read_extinction_length(const config::TomlTable& block) {
   const core::Curve length = block.curve("length", core::Dimension::length);
@@ -222,18 +234,14 @@ optics::Medium read_medium(const config::TomlTable& table, const std::string& na
   if (table.has("index")) {
     read_source(index, rule, medium.sources);
     medium.index = read_index(index);
-    medium.group_index = index.optional_curve("group", core::Dimension::dimensionless);
-    if (medium.group_index) {
-      index.expect("group", medium.group_index->min_y() >= 1.0 && medium.group_index->max_y() <= 10.0,
-                   "a group index lies between 1 and 10", "it is the speed of light over the group velocity");
-      expect_wavelengths(index, "group", *medium.group_index);
-    }
+    medium.group_index = read_group_index(index);
   }
   const config::TomlTable absorption = table.table("absorption");
   if (table.has("absorption")) {
     read_source(absorption, rule, medium.sources);
     medium.absorption_per_mm = read_extinction(absorption);
   }
+  read_birefringence(index, absorption, medium);
   const config::TomlTable scattering = table.table("scattering");
   if (table.has("scattering")) {
     read_source(scattering, rule, medium.sources);

@@ -44,6 +44,13 @@ void check_cover(core::Problems& problems, const core::FileLocation& where, cons
         problems, where,
         {*medium.group_index, whose, "group indices", "extend its table, or choose other wavelengths"},
         low_nm, high_nm);
+  if (medium.birefringence)
+    for (const optics::PrincipalAxis& axis : medium.birefringence->axes)
+      if (axis.group_index)
+        check_cover(
+            problems, where,
+            {*axis.group_index, whose, "group indices", "extend its table, or choose other wavelengths"},
+            low_nm, high_nm);
   check_cover_of_shifter(problems, where, medium.shifter.get(), low_nm, high_nm, whose);
 }
 

@@ -51,6 +51,7 @@ class FacetSurface : public MicrosurfaceModel {
   Side scatter(Ray& ray, Side side, const core::Vec3& normal, const IndexPair& index, core::Rng& rng) const;
   SurfaceOutcome scatter(Ray& ray, Side side, const IndexPair& index,
                          SurfaceInteraction& interaction) const override;
+  bool birefringent() const override { return true; }
 
   /// Normal of a random facet that faces a ray of direction k, within 90 deg of `frame.z`; of a smeared
   /// facet also beyond.
@@ -159,7 +160,7 @@ inline Side FacetSurface::scatter(Ray& ray, Side side, const core::Vec3& normal,
     const core::Vec3 against = side == Side::inside ? core::Vec3(-normal) : normal;
     const core::Vec3 facet = sample_facet(ray.direction, core::Frame::about(against), rng);
     const Ray before = ray;
-    if (interact_at_facet(ray, facet, index.on(side), index.on(other(side)), rng))
+    if (interact_at_facet(ray, facet, index, side, rng))
       side = other(side);
     else
       apply_lobe(sample_lobe(rng), ray, before, against, rng);

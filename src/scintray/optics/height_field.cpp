@@ -301,7 +301,7 @@ class HeightField::Walk {
     if (exit_.facet_interactions++ == 0)
       exit_.first_slope_rad = std::atan2(std::hypot(up.x(), up.y()), up.z());
     const core::Vec3 against = side_ == Side::outside ? up : core::Vec3(-up);
-    if (interact_at_facet(ray_, against, index.on(side_), index.on(other(side_)), rng)) side_ = other(side_);
+    if (interact_at_facet(ray_, against, index, side_, rng)) side_ = other(side_);
     take_direction();
   }
 
@@ -351,7 +351,13 @@ Side HeightField::scatter(Ray& ray, Side side, MapPlace& place, const IndexPair&
   const core::Frame& map = place.map;
   Ray local{map.to_local(ray.direction), map.to_local(ray.polarisation), ray.ellipticity_rad,
             ray.keeps_phases};
-  const HeightFieldExit exit = follow(local, side, place.x_um, place.y_um, index, rng);
+  IndexPair local_index{index.inside, index.outside};
+  std::optional<BirefringentOptics> inside, outside;  // in the frame of the map
+  if (index.birefringent_inside)
+    local_index.birefringent_inside = &inside.emplace(index.birefringent_inside->in_frame(map));
+  if (index.birefringent_outside)
+    local_index.birefringent_outside = &outside.emplace(index.birefringent_outside->in_frame(map));
+  const HeightFieldExit exit = follow(local, side, place.x_um, place.y_um, local_index, rng);
   place.x_um = exit.x_um;
   place.y_um = exit.y_um;
   ray.direction = map.to_world(local.direction).normalized();

@@ -52,6 +52,7 @@ class HeightField : public MicrosurfaceModel {
   SurfaceOutcome scatter(Ray& ray, Side side, const IndexPair& index,
                          SurfaceInteraction& interaction) const override;
   bool reciprocal() const override { return true; }
+  bool birefringent() const override { return true; }
   /// A place drawn uniformly on the height map, with its x along `along` (see map_frame).
   MapPlace random_place(const core::Vec3& normal, const core::Vec3& along, core::Rng& rng) const;
 

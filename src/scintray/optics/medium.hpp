@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scintray/core/curve.hpp"
+#include "scintray/optics/birefringence.hpp"
 #include "scintray/optics/composition.hpp"
 #include "scintray/optics/decay_time.hpp"
 #include "scintray/optics/wavelength_shifter.hpp"
@@ -47,13 +48,16 @@ struct MediumOptics {
 /// A medium of the material database (`materials/media/NAME.toml`) or of a scene file.
 struct Medium {
   std::string name;
-  core::Curve index;  ///< refractive index against wavelength (nm)
+  core::Curve index;  ///< refractive index against wavelength (nm); of a birefringent medium the axes' mean
   /// Group index against wavelength (nm), as measured; nothing: from the slope of `index`.
   std::optional<core::Curve> group_index;
   core::Curve absorption_per_mm;  ///< 1/absorption length (no re-emission) against wavelength (nm); 0: none
   core::Curve scattering_per_mm;  ///< 1/scattering length against wavelength (nm)
   ScatteringKind scattering = ScatteringKind::rayleigh;
   std::optional<ParticleScattering> particles;
+  /// Indices and absorption by principal axis, of which `index` and `absorption_per_mm` are the means; null:
+  /// light of every polarisation has the same.
+  std::shared_ptr<const Birefringence> birefringence;
   /// Wavelength shifter, which absorbs in addition to `absorption_per_mm` and re-emits; null: none.
   std::shared_ptr<const WavelengthShifter> shifter;
 

@@ -98,26 +98,27 @@ const Surface& pick(const std::vector<SurfaceShare>& mixture, core::Rng& rng) {
 struct FarFace {
   const std::optional<Reflector>& reflector;
   const core::Vec3& normal;
-  double gap_index, beyond_index, wavelength_nm;
+  IndexPair index;  ///< of the gap, inside, and of what is beyond it
+  double wavelength_nm;
   core::Rng& rng;
   ReflectionLog* log;
 
   enum class After { in_gap, beyond, absorbed };
   After from_gap(Ray& ray) const {
     if (reflector) {
-      const SheetOutcome outcome =
-          interact_at_reflector(*reflector, ray, {-normal, gap_index, beyond_index}, wavelength_nm, rng, log);
+      const SheetOutcome outcome = interact_at_reflector(
+          *reflector, ray, {-normal, index.inside, index.outside}, wavelength_nm, rng, log);
       return after(outcome, After::in_gap, After::beyond);
     }
-    return interact_at_facet(ray, -normal, gap_index, beyond_index, rng) ? After::beyond : After::in_gap;
+    return interact_at_facet(ray, -normal, index, Side::inside, rng) ? After::beyond : After::in_gap;
   }
   After from_beyond(Ray& ray) const {
     if (reflector) {  // the back of the sheet
-      const SheetOutcome outcome =
-          interact_at_reflector(*reflector, ray, {normal, beyond_index, gap_index}, wavelength_nm, rng, log);
+      const SheetOutcome outcome = interact_at_reflector(
+          *reflector, ray, {normal, index.outside, index.inside}, wavelength_nm, rng, log);
       return after(outcome, After::beyond, After::in_gap);
     }
-    return interact_at_facet(ray, normal, beyond_index, gap_index, rng) ? After::in_gap : After::beyond;
+    return interact_at_facet(ray, normal, index, Side::outside, rng) ? After::in_gap : After::beyond;
   }
   static After after(SheetOutcome outcome, After back, After through) {
     return outcome == SheetOutcome::back      ? back
@@ -142,10 +143,16 @@ SurfaceOutcome Surface::interact(Ray& ray, const Incidence& incidence, ShiftingL
   // Paint lies on the face itself: light incident on it is still in the inside medium.
   const bool painted = microsurface->kind() == MicrosurfaceKind::painted;
   IndexPair index = incidence.index;
-  IndexPair under{index.inside, painted ? index.inside : gap_index(incidence.wavelength_nm)};
+  IndexPair under = index;
+  under.outside = painted ? index.inside : gap_index(incidence.wavelength_nm);
+  under.birefringent_outside = painted ? index.birefringent_inside : nullptr;
   const auto far = [&] {
-    return FarFace{reflector, incidence.normal, under.outside, index.outside, interaction.wavelength_nm(),
-                   rng,       incidence.log};
+    return FarFace{reflector,
+                   incidence.normal,
+                   {under.outside, index.outside, under.birefringent_outside, index.birefringent_outside},
+                   interaction.wavelength_nm(),
+                   rng,
+                   incidence.log};
   };
   bool at_far_face = incidence.side == Side::outside;
   if (at_far_face) {
@@ -168,7 +175,7 @@ SurfaceOutcome Surface::interact(Ray& ray, const Incidence& incidence, ShiftingL
     at_far_face = *crossed;
     if (interaction.wavelength_nm() != before_nm) {
       index = light->index(interaction.wavelength_nm());
-      under = {index.inside, gap_index(interaction.wavelength_nm())};
+      under = {index.inside, gap_index(interaction.wavelength_nm()), index.birefringent_inside};
     }
     if (at_far_face) {
       const FarFace::After after = far().from_gap(ray);
@@ -197,6 +204,12 @@ std::string Surface::why_not_reciprocal() const {
   if (reflector && reflector->polarisation != PaintPolarisation::random)
     return "its paint keeps the polarisation as Geant4 does";
   return {};
+}
+
+bool Surface::birefringent() const {
+  if (mixture.empty()) return microsurface->birefringent();
+  return std::all_of(mixture.begin(), mixture.end(),
+                     [](const SurfaceShare& part) { return part.surface->birefringent(); });
 }
 
 bool Surface::opaque() const {

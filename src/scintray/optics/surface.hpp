@@ -104,6 +104,8 @@ struct Surface : SurfaceStack {
     return mixture.empty() && microsurface->kind() == MicrosurfaceKind::smooth && !reflector &&
            !gap_thickness_um && !admission;
   }
+  /// True when the surface is exact next to a birefringent medium (MicrosurfaceModel::birefringent).
+  bool birefringent() const;
   /// Why light does not pass the surface along every path as it would in the opposite direction
   /// (MicrosurfaceModel::reciprocal); empty: it does.
   std::string why_not_reciprocal() const;

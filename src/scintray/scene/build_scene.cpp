@@ -1,5 +1,7 @@
 #include "scintray/scene/build_scene.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <set>
@@ -39,7 +41,11 @@ class AssemblyMaker {
     assembly_.low_nm = wavelengths_.low_nm;
     assembly_.high_nm = wavelengths_.high_nm;
     assembly_.ambient = medium_id(spec_.ambient);
-    for (const contact::PlacedMesh& part : placed) add_part(part);
+    if (assembly_.media[assembly_.ambient].medium().birefringence)
+      problems_.add(spec_.ambient.where,
+                    "the ambient medium, \"" + spec_.ambient.name + "\", is birefringent",
+                    "place it as a part, whose principal axes have directions");
+    for (const contact::PlacedMesh& part : placed) add_part(part, warnings);
     assembly_.contacts_default = spec_.contacts_default;
     assembly_.contacts = spec_.contacts;
     assembly_.contact_tolerance_mm = spec_.run.contact_tolerance_mm;
@@ -58,6 +64,37 @@ class AssemblyMaker {
   core::MediumId add_medium(optics::Medium medium, const core::FileLocation& where) {
     materials::check_cover(problems_, where, medium, wavelengths_.low_nm, wavelengths_.high_nm);
     return assembly_.media.emplace_back(std::move(medium));
+  }
+
+  /// The medium of a part: of a birefringent one there is one for every direction of its principal axes.
+  core::MediumId medium_of(const contact::PlacedMesh& placed, std::vector<std::string>& warnings) {
+    const core::MediumId id = medium_id(placed.medium);
+    const std::shared_ptr<const optics::Birefringence> birefringence =
+        assembly_.media[id].medium().birefringence;
+    if (!birefringence) {
+      if (placed.principal_axes)
+        problems_.add(placed.where,
+                      "the part \"" + placed.name + "\" has principal axes, but its medium \"" +
+                          placed.medium.name + "\" has one refractive index",
+                      "leave out principal_axes, or give the medium [index.y] and [index.z]");
+      return id;
+    }
+    if (!placed.principal_axes && along_part_.insert(placed.medium.name).second)
+      warnings.push_back("the principal axes of the birefringent medium \"" + placed.medium.name +
+                         "\" are taken along x, y and z of the part \"" + placed.name +
+                         "\" and of others without principal_axes = { x = [1, 0, 0], z = [0, 0, 1] }");
+    const Eigen::Matrix3d directions =
+        placed.rotation * placed.principal_axes.value_or(Eigen::Matrix3d::Identity());
+    if (directions.isIdentity(0.0)) return id;
+    std::string name = placed.medium.name;
+    for (const double number : directions.reshaped()) name += fmt::format(" {:.12g}", number + 0.0);
+    const auto [known, is_new] = media_.try_emplace(name);
+    if (!is_new) return known->second;
+    optics::Medium turned = assembly_.media[id].medium();
+    auto axes = std::make_shared<optics::Birefringence>(*birefringence);
+    axes->directions = directions;
+    turned.birefringence = std::move(axes);
+    return known->second = assembly_.media.emplace_back(std::move(turned));
   }
 
   core::MediumId medium_id(const config::NameRef& ref) {
@@ -154,7 +191,7 @@ class AssemblyMaker {
     return known->second = add_medium(std::move(window), {});
   }
 
-  void add_part(const contact::PlacedMesh& placed) {
+  void add_part(const contact::PlacedMesh& placed, std::vector<std::string>& warnings) {
     AssemblyPart part;
     part.sensor = sensor_id(placed.sensor);
     if (placed.medium.empty() && has_cathode(part.sensor))
@@ -164,7 +201,7 @@ class AssemblyMaker {
                     "before it; or give the sensor to the back face of the window");
     part.medium = placed.medium.empty() && part.sensor.has_value()
                       ? window_medium(assembly_.sensors[part.sensor])
-                      : medium_id(placed.medium);
+                      : medium_of(placed, warnings);
     part.rotation = placed.rotation;
     part.surface = placed.surface.name;
     if (!placed.surface.empty()) find_surface(placed.surface);
@@ -241,6 +278,17 @@ class AssemblyMaker {
         spec, assembly_.media[seen_inside].medium(), assembly_.media[seen_outside].medium(),
         wavelengths_.reference_nm, wavelengths_.low_nm, wavelengths_.high_nm);
     warnings.insert(warnings.end(), made.warnings.begin(), made.warnings.end());
+    for (const core::MediumId side : {inside, outside}) {
+      const optics::Medium& medium = assembly_.media[side].medium();
+      if (!medium.birefringence || made.surface.birefringent()) continue;
+      if (by_mean_index_.insert(name + '\n' + medium.name).second)
+        warnings.push_back(
+            fmt::format("surface \"{}\" has the mean refractive index, {:.4g}, of the birefringent medium "
+                        "\"{}\": its model knows "
+                        "one index; light that leaves it in the medium takes one of the two polarisations of "
+                        "its direction",
+                        name, medium.index(wavelengths_.reference_nm), medium.name));
+    }
     return made.surface;
   }
 
@@ -253,7 +301,9 @@ class AssemblyMaker {
   std::map<std::string, core::MediumId> media_;
   std::map<std::string, core::SensorId> sensors_;
   std::map<std::string, materials::SurfaceSpec> surfaces_;
-  std::set<std::string> leaking_;  ///< surfaces of opaque sheets that were reported
+  std::set<std::string> leaking_;        ///< surfaces of opaque sheets that were reported
+  std::set<std::string> by_mean_index_;  ///< surface and birefringent medium of a warning
+  std::set<std::string> along_part_;     ///< birefringent media whose axes' directions a warning states
 };
 
 /// The contacts with a tolerance of their own.

@@ -20,12 +20,21 @@ inline LinkSurface first_surface(const Interface& interface, bool from_back) {
   return {at_back ? interface.back_surface : interface.front_surface, at_back == from_back};
 }
 
+/// True when one of the regions of an interface is of a birefringent medium.
+inline bool touches_birefringent(const Scene& scene, const Interface& interface) {
+  const auto birefringent = [&](core::RegionId region) {
+    return scene.optics.media[scene.regions[region].medium].birefringent;
+  };
+  return birefringent(interface.back) || birefringent(interface.front);
+}
+
 /// The surface at a boundary triangle's interface; nothing where photons are scattered one by one: dry
-/// contacts, reflectors and tables from behind, surfaces that are not for lanes, and all where phases are
-/// kept.
+/// contacts, reflectors and tables from behind, surfaces that are not for lanes, all next to a birefringent
+/// medium, and all where phases are kept.
 inline std::optional<optics::LaneSurface> lane_surface_at(const Scene& scene, const BoundaryLink& link) {
   const Interface& interface = scene.interfaces[link.interface];
-  if (scene.keeps_phases || interface.gap_medium.has_value()) return std::nullopt;
+  if (scene.keeps_phases || interface.gap_medium.has_value() || touches_birefringent(scene, interface))
+    return std::nullopt;
   const LinkSurface at = first_surface(interface, link.from_back);
   std::optional<optics::LaneSurface> surface = optics::lane_surface(scene.surfaces[at.id]);
   if (surface && (surface->reflector || surface->table) && !at.own) return std::nullopt;

@@ -94,6 +94,7 @@ class PartPlacer {
     result.name = part.name.name;
     result.where = part.where;
     result.medium = part.medium;
+    result.principal_axes = part.principal_axes;
     result.sensor = part.sensor;
     result.surface = part.surface;
     result.priority = part.priority;

@@ -1,5 +1,6 @@
 #include "scintray/scene/scene.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -9,12 +10,20 @@ namespace {
 
 constexpr double kWavelengthStep_nm = 0.5;
 
+bool constant_axes(const optics::Birefringence& medium) {
+  return std::all_of(medium.axes.begin(), medium.axes.end(), [](const optics::PrincipalAxis& axis) {
+    return axis.index.is_constant() && axis.absorption_per_mm.is_constant() &&
+           (!axis.group_index || axis.group_index->is_constant());
+  });
+}
+
 bool constant_optics(const optics::Medium& medium) {
   return medium.index.is_constant() && medium.absorption_per_mm.is_constant() &&
          medium.scattering_per_mm.is_constant() &&
          (!medium.group_index || medium.group_index->is_constant()) &&
          (!medium.particles || medium.particles->per_mm.is_constant()) &&
-         (!medium.shifter || medium.shifter->absorption_per_mm().is_constant());
+         (!medium.shifter || medium.shifter->absorption_per_mm().is_constant()) &&
+         (!medium.birefringence || constant_axes(*medium.birefringence));
 }
 
 }  // namespace
@@ -28,7 +37,10 @@ void SceneOptics::add(const SceneMedium& scene_medium, double low_nm, double hig
   record.shifts = medium.shifter != nullptr;
   record.particles = medium.particles.has_value();
   record.first_shift = static_cast<std::uint32_t>(shifting_per_mm.size());
+  record.birefringent = medium.birefringence != nullptr;
+  record.first_birefringent = static_cast<std::uint32_t>(birefringent.size());
   const auto tabulate = [&](double wavelength_nm) {
+    if (record.birefringent) birefringent.emplace_back(*medium.birefringence, wavelength_nm);
     table.push_back(medium.at(wavelength_nm));
     if (record.shifts) shifting_per_mm.push_back(medium.shifter->absorption_per_mm()(wavelength_nm));
   };

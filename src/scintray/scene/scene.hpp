@@ -47,6 +47,8 @@ struct MediumRecord {
   bool particles = false;  ///< has particles that scatter
   std::uint32_t first_shift =
       0;  ///< with a shifter: first entry of SceneOptics::shifting_per_mm, `count` in all
+  bool birefringent = false;
+  std::uint32_t first_birefringent = 0;  ///< then: first entry of SceneOptics::birefringent, `count` in all
 
   /// Of the wavelengths of the table, which are those in use.
   double middle_nm() const { return per_nm > 0.0 ? low_nm + 0.5 * last / per_nm : low_nm; }
@@ -63,6 +65,7 @@ struct SceneOptics {
   core::IdVector<core::MediumId, MediumRecord> media;  ///< as Scene::media
   std::vector<optics::MediumOptics> table;
   std::vector<double> shifting_per_mm;  ///< absorption by the wavelength shifters alone, of media with one
+  std::vector<optics::BirefringentOptics> birefringent;  ///< at the wavelengths of `table`, of such media
 
   /// Adds a medium, tabulated over [low_nm, high_nm] in steps of at most 0.5 nm.
   void add(const SceneMedium& medium, double low_nm, double high_nm);
@@ -83,6 +86,19 @@ struct SceneOptics {
     return record.count == 1 ? table[record.first].index : at(medium, wavelength_nm).index;
   }
   bool is_opaque(core::MediumId medium) const { return media[medium].opaque; }
+  /// A birefringent medium at the wavelength (nm) of its table that is nearest; null for a medium of one
+  /// index. `at` has the means of its axes.
+  const optics::BirefringentOptics* birefringent_at(core::MediumId medium, double wavelength_nm) const {
+    const MediumRecord& record = media[medium];
+    if (!record.birefringent) [[likely]]
+      return nullptr;
+    std::size_t entry = 0;
+    if (record.count > 1) {
+      const auto [below, share] = place(record, wavelength_nm);
+      entry = below + (share < 0.5 ? 0 : 1);
+    }
+    return &birefringent[record.first_birefringent + entry];
+  }
   /// Absorption by the wavelength shifter of a medium that has one, 1/mm: a part of `at`'s absorption, and
   /// where nothing else absorbs equal to it in every bit.
   double shifting_at(core::MediumId medium, double wavelength_nm) const {
@@ -126,7 +142,8 @@ static_assert(std::is_trivially_copyable_v<Interface> && sizeof(Interface) == 48
 /// The interface of a boundary triangle, and the side of this region on it.
 struct BoundaryLink {
   core::InterfaceId interface;
-  core::MediumId smooth_to;  ///< medium behind a plain interface; none: not plain, or phases are kept
+  core::MediumId smooth_to;  ///< medium behind a plain interface between media of one index; none: another,
+                             ///< or phases are kept
   bool from_back = true;
 };
 static_assert(std::is_trivially_copyable_v<BoundaryLink> && sizeof(BoundaryLink) == 12);

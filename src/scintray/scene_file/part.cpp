@@ -139,11 +139,39 @@ std::vector<FaceRuleSpec> read_faces(const config::TomlTable& part) {
   return rules;
 }
 
+namespace {
+
+/// principal_axes = { z = [...], x = [...] }: two perpendicular axes, or z alone, the optic axis of a
+/// uniaxial medium, for which x is drawn by no rule that matters.
+std::optional<Eigen::Matrix3d> read_principal_axes(const config::TomlTable& part) {
+  const std::optional<config::TomlTable> table = part.optional_table("principal_axes");
+  if (!table) return std::nullopt;
+  const std::optional<core::Vec3> x = table->optional_direction("x"), z = table->optional_direction("z");
+  if (!table->has("z"))
+    table->report(
+        "z", "\"principal_axes\" has no \"z\"",
+        "give the direction of the medium's principal axis z in the part's frame, as z = [0, 0, 1], and "
+        "where all three indices differ that of x as well");
+  if (!z || (table->has("x") && !x)) return std::nullopt;
+  const core::Frame about = core::Frame::about(*z);
+  constexpr double kPerpendicular = 1e-6;
+  table->expect("x", !x || std::abs(x->dot(*z)) < kPerpendicular,
+                "the principal axes x and z are not perpendicular",
+                "principal axes are perpendicular to each other; check the two directions");
+  const core::Vec3 first = x ? core::Vec3((*x - x->dot(*z) * *z).normalized()) : about.x;
+  Eigen::Matrix3d axes;
+  axes << first, z->cross(first), *z;
+  return axes;
+}
+
+}  // namespace
+
 void read_body(const config::TomlTable& table, PartSpec& part) {
   part.shape = read_shape(table);
   part.sensor = read_name(table, "sensor", false);
   part.medium = read_name(table, "medium", !table.has("sensor"));
   part.surface = read_name(table, "surface", false);
+  part.principal_axes = read_principal_axes(table);
   part.priority = static_cast<int>(table.integer("priority", 0));
   table.expect("priority", std::abs(table.integer("priority", 0)) <= kHighestPriority,
                "a priority beyond " + std::to_string(kHighestPriority), "give a smaller number");

@@ -66,7 +66,10 @@ struct PartSpec {
   config::NameRef medium;   ///< kOpaqueMedium allowed; empty only for a part that is a sensor
   config::NameRef surface;  ///< of every face that no rule matches; empty: rules must cover every face
   config::NameRef sensor;   ///< the whole part is a sensor
-  int priority = 0;         ///< of two overlapping parts the one with the higher priority keeps the volume
+  /// Directions of the principal axes x, y, z of a birefringent medium in the part's own frame, in columns;
+  /// nothing: along the axes of that frame.
+  std::optional<Eigen::Matrix3d> principal_axes;
+  int priority = 0;  ///< of two overlapping parts the one with the higher priority keeps the volume
   std::vector<FaceRuleSpec> faces;
   bool liquid = false;  ///< glue or filler of a builder: its faces need no surface, they are smooth
   core::FileLocation where;

@@ -163,6 +163,7 @@ std::string why_not_backward(const scene::Scene& scene) {
   for (const core::MediumId id : scene.media.ids()) {
     const optics::Medium& medium = scene.media[id].medium();
     if (medium.shifter) return "medium \"" + medium.name + "\" shifts wavelengths";
+    if (medium.birefringence) return "medium \"" + medium.name + "\" is birefringent";
   }
   for (const core::SensorId id : scene.sensors.ids()) {
     const detector::Sensor& sensor = scene.sensors[id];

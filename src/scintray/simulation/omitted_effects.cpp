@@ -89,6 +89,18 @@ void add_electronics(const std::optional<detector::ReadoutSpec>& readout,
     effects.push_back(effect("electronic noise", "", Figures::both, "[readout] noise"));
 }
 
+/// Birefringent media, in which the two waves of one photon do not interfere (optics/birefringence.hpp).
+void add_birefringence(const scene::Scene& scene, std::vector<OmittedEffect>& effects) {
+  std::vector<std::string> names;
+  for (const scene::SceneMedium& scene_medium : scene.media) {
+    const optics::Medium& medium = scene_medium.medium();
+    if (!medium.birefringence || std::find(names.begin(), names.end(), medium.name) != names.end()) continue;
+    names.push_back(medium.name);
+    effects.push_back(effect("interference of the two waves of a birefringent medium, as in wave plates",
+                             medium.name, Figures::fraction, ""));
+  }
+}
+
 /// Round faces whose triangles are traced: how many, how far the steepest is from its surface, and what light
 /// they may let out.
 void add_facets(const scene::BuiltScene& built, std::vector<OmittedEffect>& effects) {
@@ -142,6 +154,7 @@ std::vector<tally::OmittedEffect> SimulationPoint::omitted() const {
     if (spec_.readout)
       for (const core::SensorId sensor : sensors) add_response(scene().sensors[sensor], effects);
   }
+  add_birefringence(scene(), effects);
   for (const core::SensorId sensor : sensors) add_detection(scene().sensors[sensor], effects);
   add_facets(*built_, effects);
   return effects;

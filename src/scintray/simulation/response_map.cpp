@@ -8,6 +8,7 @@
 #include "scintray/core/sampling.hpp"
 #include "scintray/simulation/detail/backward_response.hpp"
 #include "scintray/simulation/detail/journal_pieces.hpp"
+#include "scintray/source/photon_optics.hpp"
 #include "scintray/transport/step.hpp"
 
 namespace scintray::simulation {
@@ -97,6 +98,7 @@ class CellTracer {
     photon.wavelength_nm = emission_.sample(rng.uniform());
     photon.optics = scene_.optics.at(medium_, photon.wavelength_nm);
     photon.optical_depth = core::sample_exponential(rng);
+    source::emit_isotropic(scene_, photon, rng);
     const transport::PropagationLimits limits = limits_of(run_);
     for (;;) {
       const transport::Step taken = transport::step(scene_, photon, rng, limits);

@@ -11,6 +11,7 @@
 #include "scintray/source/detail/origin.hpp"
 #include "scintray/source/detail/photon_list_source.hpp"
 #include "scintray/source/detail/scintillation_source.hpp"
+#include "scintray/source/photon_optics.hpp"
 
 namespace scintray::source {
 
@@ -90,7 +91,7 @@ void PhotonSource::check_medium(const scene_file::SourceSpec& spec, const scene:
     if (scene.media[region.medium].is_opaque())
       throw core::InputError({spec.origin_where, "the source lies in an opaque part",
                               "put it into a medium that transmits light"});
-    if (region.medium != first)
+    if (scene.media[region.medium].medium().name != scene.media[first].medium().name)
       throw core::InputError({spec.origin_where,
                               "the parts of the source have different media: \"" +
                                   scene.region_names[regions.front()] + "\" is " +
@@ -135,6 +136,11 @@ Photon PhotonSource::emit(const scene::Scene& scene, const EventLight&, std::uin
   photon.time_ns = decay_.empty() ? time_ns_ : optics::sample_decay(decay_, rng);
   photon.optics = scene.optics.at(scene.regions[photon.region].medium, photon.wavelength_nm);
   photon.optical_depth = core::sample_exponential(rng);
+  // Light that is to have a direction or a polarisation keeps that of its ray.
+  if (direction_.kind == scene_file::DirectionKind::isotropic && !polarisation_)
+    emit_isotropic(scene, photon, rng);
+  else
+    take_mode(scene, photon, rng);
   return photon;
 }
 

@@ -43,7 +43,8 @@ void HistoryPlan::add_media(const scene::Scene& scene) {
   for (const scene::Region& region : scene.regions) {
     HistoryColumn& column = column_of_medium[region.medium];
     const scene::SceneMedium& medium = scene.media[region.medium];
-    if (!column.has_value() && !medium.is_opaque()) {
+    // Absorption along a path in a birefringent medium depends on the light's mode: it is not in one column.
+    if (!column.has_value() && !medium.is_opaque() && !medium.medium().birefringence) {
       column = HistoryColumn(subjects_.media.size());
       subjects_.media.push_back(medium.medium().name);
       subjects_.absorption_per_mm.push_back(

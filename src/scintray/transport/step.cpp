@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "scintray/core/sampling.hpp"
+#include "scintray/source/photon_optics.hpp"
 #include "scintray/transport/detail/propagation_states.hpp"
 #include "scintray/transport/detail/step_parts.hpp"
 
@@ -114,7 +115,8 @@ void interact_in_bulk(const scene::Scene& scene, core::MediumId id, source::Phot
     }
     return;
   }
-  if (!medium.particles || !scatter_at_particles(scene, id, photon, rng)) {
+  const bool by_particles = medium.particles && scatter_at_particles(scene, id, photon, rng);
+  if (!by_particles && !(medium.birefringent && source::scatter(scene, photon, rng))) {
     if (medium.scattering == optics::ScatteringKind::rayleigh)
       scatter_rayleigh(photon.ray, rng);
     else
@@ -194,6 +196,16 @@ inline void cross(const scene::Scene& scene, const scene::Interface& interface, 
   }
 }
 
+/// Interaction at a smooth boundary next to a birefringent medium; true when the photon passes it.
+[[gnu::noinline, gnu::cold]] bool cross_birefringent(const BirefringentSides& sides, bool from_back,
+                                                     const core::Vec3& against, double there,
+                                                     source::Photon& photon, core::Rng& rng) {
+  const optics::FaceMedium here{photon.optics.index, from_back ? sides.back : sides.front};
+  const optics::FaceMedium behind{there, from_back ? sides.front : sides.back};
+  if (here.birefringent == behind.birefringent) return true;  // the same medium, with the same axes
+  return optics::interact_at_birefringent(photon.ray, against, here, behind, rng);
+}
+
 void set_place(const scene::BoundaryLink& link, const BoundaryPlace& at, const source::Photon& photon,
                Step& step) {
   step.interface = link.interface;
@@ -217,13 +229,17 @@ void interact_at_boundary(const scene::Scene& scene, std::uint32_t triangle, sou
   if (!interface.plain || here != there) ++photon.interactions;
 
   bool crossed;
+  const BirefringentSides sides = birefringent_sides(scene, interface, photon.wavelength_nm);
   if (interface.plain) {
-    crossed = optics::interact_at_facet(photon.ray, -outward, here, there, rng);
+    crossed = sides.back || sides.front
+                  ? cross_birefringent(sides, link.from_back, -outward, there, photon, rng)
+                  : optics::interact_at_facet(photon.ray, -outward, here, there, rng);
   } else {
     const core::Vec3 normal = link.from_back ? outward : core::Vec3(-outward);
     const double back = link.from_back ? here : there, front = link.from_back ? there : here;
     const double before_nm = photon.wavelength_nm;
-    const InterfaceApproach approach{scene, interface, link.from_back, normal, {back, front, gap, dry}};
+    const InterfaceApproach approach{
+        scene, interface, link.from_back, normal, {back, front, gap, dry, sides.back, sides.front}};
     const InterfaceOutcome outcome = interact_at_interface(approach, photon, rng, records);
     if (photon.wavelength_nm != before_nm) photon.optics = optics.at(region.medium, photon.wavelength_nm);
     if (outcome.absorbed_by.has_value()) {
@@ -306,6 +322,8 @@ Step end_of_step(const scene::Scene& scene, const Propagation& propagation, sour
       result = total_reflection(scene, photon, propagation.triangle, propagation.cosine);
       break;
   }
+  if (!scene.optics.birefringent.empty() && !core::is_final(result.event)) [[unlikely]]
+    source::take_mode(scene, photon, rng);
   result.region = from;
   result.segments = propagation.segments;
   result.resolved = propagation.resolved;

@@ -30,6 +30,16 @@ core::Curve read_emission(const config::TomlTable& block);
 /// The components of `decay`, whose fractions must sum to 1; empty when absent.
 std::vector<optics::DecayComponent> read_decay(const config::TomlTable& table, SourceRule rule,
                                                std::vector<std::string>& sources);
+/// A refractive index against wavelength (nm) from `n`, `sellmeier` or `cauchy`.
+core::Curve read_index(const config::TomlTable& block);
+/// A group index, as measured, from `group`; nothing when absent.
+std::optional<core::Curve> read_group_index(const config::TomlTable& block);
+/// Reports unless every wavelength of a table is positive.
+void expect_wavelengths(const config::TomlTable& block, const std::string& key, const core::Curve& curve);
+/// Reads the `y` and `z` of [index] and [absorption], which make a medium birefringent, and sets its means;
+/// without any the medium stays as it is.
+void read_birefringence(const config::TomlTable& index, const config::TomlTable& absorption,
+                        optics::Medium& medium);
 /// A coefficient per mm against wavelength (nm) from `length`, `coefficient`, or `none = true`.
 core::Curve read_extinction(const config::TomlTable& block);
 /// The wavelength shifters of a medium, [wavelength_shifting] or several [[wavelength_shifting]], in which

@@ -100,6 +100,9 @@ void read_gap(const config::TomlTable& table, const SurfaceLookup& lookup, core:
     if (surface.gap.empty()) return;
     try {
       const optics::Medium medium = lookup.medium(surface.gap, value->where);
+      if (medium.birefringence)
+        table.report("gap", "the gap's medium \"" + surface.gap + "\" is birefringent, which a gap cannot be",
+                     "give the mean index, as gap = 1.57, or place the medium as a part of its own");
       surface.gap_index = medium.index;
       surface.gap_absorption_per_mm = medium.absorption_per_mm;
       surface.gap_shifter = medium.shifter;

@@ -24,13 +24,15 @@ class SlightlyRoughSurface : public optics::MicrosurfaceModel {
         side == optics::Side::inside ? core::Vec3(-interaction.normal) : interaction.normal;
     const double n1 = index.on(side), n2 = index.on(other(side));
     const double cosine = std::abs(ray.direction.dot(against));
-    if (optics::interact_at_facet(ray, against, n1, n2, interaction.rng))
+    if (optics::interact_at_facet(ray, against, index, side, interaction.rng))
       return optics::outcome_on(other(side));
     const double phase = 4.0 * core::kPi * rms_height_nm_ * n1 * cosine / interaction.wavelength_nm;
     if (n1 > n2 && interaction.rng.uniform() >= std::exp(-phase * phase))
       optics::scatter_lambertian(ray, against, interaction.rng);
     return optics::outcome_on(side);
   }
+
+  bool birefringent() const override { return true; }
 
  private:
   double rms_height_nm_;

@@ -110,11 +110,12 @@ bool find_exact(const PartBodies& bodies, core::PartId of, std::vector<Entry>& e
 void link_smooth_media(Scene& scene) {
   for (BoundaryLink& link : scene.links) {
     const Interface& interface = scene.interfaces[link.interface];
-    if (interface.plain && !scene.keeps_phases)
+    if (interface.plain && !scene.keeps_phases && !touches_birefringent(scene, interface))
       link.smooth_to = scene.regions[link.from_back ? interface.front : interface.back].medium;
   }
   for (Region& region : scene.regions) {
     const Accelerator& accelerator = scene.accelerator(region);
+    if (scene.optics.media[region.medium].birefringent) continue;
     if (region.rotated || !(accelerator.uses_planes() || accelerator.is_convex_body())) continue;
     const LaneShares shares = lane_shares(scene, region);
     region.in_lanes = shares.smooth > 0.5 || (shares.known > 0.5 && !region.curved);

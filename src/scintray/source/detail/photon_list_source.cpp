@@ -7,6 +7,7 @@
 
 #include "scintray/core/sampling.hpp"
 #include "scintray/core/text.hpp"
+#include "scintray/source/photon_optics.hpp"
 
 namespace scintray::source {
 
@@ -146,6 +147,7 @@ Photon PhotonListSource::emit(const scene::Scene& scene, const EventLight& light
   photon.wavelength_nm = listed.wavelength_nm;
   photon.time_ns = listed.time_ns;
   photon.optics = scene.optics.at(scene.regions[photon.region].medium, photon.wavelength_nm);
+  take_mode(scene, photon, rng);
   photon.optical_depth = core::sample_exponential(rng);
   return photon;
 }

@@ -11,6 +11,7 @@
 #include "scintray/core/statistics.hpp"
 #include "scintray/optics/decay_time.hpp"
 #include "scintray/source/detail/scintillation.hpp"
+#include "scintray/source/photon_optics.hpp"
 
 namespace scintray::source {
 
@@ -223,6 +224,10 @@ Photon ScintillationSource::emit(const scene::Scene& scene, const EventLight& li
   }
   photon.optics = scene.optics.at(medium, photon.wavelength_nm);
   photon.optical_depth = core::sample_exponential(rng);
+  if (prompt && deposit.step)
+    take_mode(scene, photon, rng);
+  else
+    emit_isotropic(scene, photon, rng);
   return photon;
 }
 

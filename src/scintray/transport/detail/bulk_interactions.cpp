@@ -4,6 +4,7 @@
 
 #include "scintray/core/sampling.hpp"
 #include "scintray/optics/elliptical.hpp"
+#include "scintray/source/photon_optics.hpp"
 #include "scintray/transport/detail/step_parts.hpp"
 
 namespace scintray::transport {
@@ -57,7 +58,11 @@ void scatter_rayleigh(optics::Ray& ray, core::Rng& rng) {
 bool scatter_at_particles(const scene::Scene& scene, core::MediumId id, source::Photon& photon,
                           core::Rng& rng) {
   const optics::ParticleScattering& particles = *scene.media[id].medium().particles;
-  if (rng.uniform() * photon.optics.scattering_per_mm >= particles.per_mm(photon.wavelength_nm)) return false;
+  // In a birefringent medium the photon's own coefficient is that of its mode.
+  const double all_per_mm = scene.optics.media[id].birefringent
+                                ? scene.optics.at(id, photon.wavelength_nm).scattering_per_mm
+                                : photon.optics.scattering_per_mm;
+  if (rng.uniform() * all_per_mm >= particles.per_mm(photon.wavelength_nm)) return false;
   const bool forward = rng.uniform() < particles.forward_share;
   scatter_henyey_greenstein(photon.ray, forward ? particles.forward_g : particles.backward_g, forward, rng);
   return true;
@@ -78,6 +83,7 @@ bool shift_in_bulk(const scene::Scene& scene, core::MediumId id, source::Photon&
     again.time_ns += light.delay_ns;
     again.optics = scene.optics.at(id, again.wavelength_nm);
     optics::scatter_isotropic(again.ray, rng);
+    source::emit_isotropic(scene, again, rng);
   };
   // The random numbers are drawn with and without records, so that a photon is replayed alike.
   for (const optics::ShiftedLight& light : more) {

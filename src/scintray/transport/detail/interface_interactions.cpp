@@ -19,6 +19,9 @@ InterfaceIndex indices_at(const scene::Scene& scene, const scene::Interface& int
   index.back = at(back, front);
   index.front = at(front, back);
   if (index.dry) index.gap = optics.index(interface.gap_medium, wavelength_nm);
+  const auto [birefringent_back, birefringent_front] = birefringent_sides(scene, interface, wavelength_nm);
+  index.birefringent_back = birefringent_back;
+  index.birefringent_front = birefringent_front;
   return index;
 }
 
@@ -54,6 +57,21 @@ struct SurfaceApproach {
 }
 
 }  // namespace
+
+BirefringentSides birefringent_sides(const scene::Scene& scene, const scene::Interface& interface,
+                                     double wavelength_nm) {
+  const scene::SceneOptics& optics = scene.optics;
+  if (optics.birefringent.empty()) [[likely]]
+    return {};
+  const core::MediumId back = scene.regions[interface.back].medium;
+  const core::MediumId front = scene.regions[interface.front].medium;
+  const auto at = [&](core::MediumId own, core::MediumId other) -> const optics::BirefringentOptics* {
+    if (!optics.is_opaque(own)) return optics.birefringent_at(own, wavelength_nm);
+    if (interface.gap_medium.has_value() || optics.is_opaque(other)) return nullptr;
+    return optics.birefringent_at(other, wavelength_nm);
+  };
+  return {at(back, front), at(front, back)};
+}
 
 InterfaceOutcome interact_at_interface(const InterfaceApproach& at, source::Photon& photon, core::Rng& rng,
                                        source::PhotonRecords* records) {

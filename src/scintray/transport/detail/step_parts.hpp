@@ -57,13 +57,26 @@ struct InterfaceOutcome {
 struct InterfaceIndex {
   double back = 1.0, front = 1.0, gap = 0.0;
   bool dry = false;
+  const optics::BirefringentOptics* birefringent_back = nullptr;
+  const optics::BirefringentOptics* birefringent_front = nullptr;
 
   /// Indices on the two sides of one of its surfaces.
   optics::IndexPair around(bool back_surface) const {
     const double inside = back_surface ? back : front;
-    return {inside, dry ? gap : (back_surface ? front : back)};
+    return {inside, dry ? gap : (back_surface ? front : back),
+            back_surface ? birefringent_back : birefringent_front,
+            dry ? nullptr : (back_surface ? birefringent_front : birefringent_back)};
   }
 };
+
+/// The birefringent media on the two sides of an interface; null: of one index. Light enters an opaque region
+/// as if the medium it comes from went on.
+struct BirefringentSides {
+  const optics::BirefringentOptics* back = nullptr;
+  const optics::BirefringentOptics* front = nullptr;
+};
+BirefringentSides birefringent_sides(const scene::Scene& scene, const scene::Interface& interface,
+                                     double wavelength_nm);
 
 /// Conditions of incidence of a photon at an interface.
 struct InterfaceApproach {

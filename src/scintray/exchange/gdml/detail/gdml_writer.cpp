@@ -125,6 +125,9 @@ std::string GdmlWriter::material(const optics::Medium& medium, bool opaque) {
 }
 
 void GdmlWriter::add_bulk(pugi::xml_node material, const optics::Medium& medium) {
+  if (medium.birefringence)
+    note("medium " + medium.name +
+         ": Geant4 has no birefringence: the mean index and the mean absorption of its axes are written");
   add_table(material, "RINDEX", medium.index);
   if (medium.group_index) {
     std::vector<double> velocity;

@@ -1,0 +1,95 @@
+#include <algorithm>
+#include <set>
+
+#include "scintray/materials/detail/forms.hpp"
+
+namespace scintray::materials {
+
+namespace {
+
+constexpr const char* kAxisKeys[] = {"y", "z"};
+
+/// Mean of curves at the points of all, within the range of every one; a constant where none covers any.
+core::Curve mean_of(const std::array<core::Curve, 3>& curves) {
+  double low = -HUGE_VAL, high = HUGE_VAL;
+  std::set<double> points;
+  for (const core::Curve& curve : curves) {
+    if (curve.is_constant()) continue;
+    low = std::max(low, curve.x().front());
+    high = std::min(high, curve.x().back());
+    points.insert(curve.x().begin(), curve.x().end());
+  }
+  std::vector<double> x, y;
+  for (const double point : points)
+    if (point >= low && point <= high) x.push_back(point);
+  if (x.empty()) x.push_back(points.empty() ? 0.0 : low);
+  for (const double point : x) y.push_back((curves[0](point) + curves[1](point) + curves[2](point)) / 3.0);
+  return {std::move(x), std::move(y)};
+}
+
+/// True when the ranges of the tables have wavelengths in common.
+bool overlap(const std::array<core::Curve, 3>& curves) {
+  double low = -HUGE_VAL, high = HUGE_VAL;
+  for (const core::Curve& curve : curves) {
+    if (curve.is_constant()) continue;
+    low = std::max(low, curve.x().front());
+    high = std::min(high, curve.x().back());
+  }
+  return low <= high;
+}
+
+std::array<core::Curve, 3> indices_of(const optics::Birefringence& medium) {
+  return {medium.axes[0].index, medium.axes[1].index, medium.axes[2].index};
+}
+std::array<core::Curve, 3> absorptions_of(const optics::Birefringence& medium) {
+  return {medium.axes[0].absorption_per_mm, medium.axes[1].absorption_per_mm,
+          medium.axes[2].absorption_per_mm};
+}
+
+bool same(const core::Curve& a, const core::Curve& b) { return a.x() == b.x() && a.y() == b.y(); }
+
+}  // namespace
+
+void read_birefringence(const config::TomlTable& index, const config::TomlTable& absorption,
+                        optics::Medium& medium) {
+  auto axes = std::make_shared<optics::Birefringence>();
+  axes->axes.fill({medium.index, medium.group_index, medium.absorption_per_mm});
+  bool by_index = false, by_absorption = false;
+  for (std::size_t i = 0; i < std::size(kAxisKeys); ++i) {
+    optics::PrincipalAxis& axis = axes->axes[i + 1];
+    if (const std::optional<config::TomlTable> block = index.optional_table(kAxisKeys[i])) {
+      axis.index = read_index(*block);
+      axis.group_index = read_group_index(*block);
+      by_index = true;
+    }
+    if (const std::optional<config::TomlTable> block = absorption.optional_table(kAxisKeys[i])) {
+      axis.absorption_per_mm = read_extinction(*block);
+      by_absorption = true;
+    }
+  }
+  if (by_absorption && !by_index)
+    absorption.report(
+        absorption.has("y") ? "y" : "z",
+        "an absorption that depends on the polarisation, in a medium of one refractive index",
+        "give the index of the axes as well, as [index.z] with its n: they decide which polarisations "
+        "light has in the medium");
+  if (!by_index) return;
+  const char* const key = index.has("z") ? "z" : "y";
+  const bool all_same =
+      same(axes->axes[0].index, axes->axes[1].index) && same(axes->axes[0].index, axes->axes[2].index);
+  index.expect(
+      key, !all_same, "a birefringent medium whose indices are all the same",
+      "[index] is along the principal axis x; give [index.y] and [index.z] their own, or leave them out");
+  index.expect(key, overlap(indices_of(*axes)),
+               "the indices of the principal axes have no wavelengths in common",
+               "give all three over one range of wavelengths");
+  absorption.expect(absorption.has("z") ? "z" : "y", overlap(absorptions_of(*axes)),
+                    "the absorptions of the principal axes have no wavelengths in common",
+                    "give all of them over one range of wavelengths");
+  medium.index = mean_of(indices_of(*axes));
+  medium.absorption_per_mm = mean_of(absorptions_of(*axes));
+  medium.group_index.reset();
+  medium.birefringence = std::move(axes);
+}
+
+}  // namespace scintray::materials

@@ -1,0 +1,366 @@
+#include "scintray/optics/birefringence.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+#include "scintray/core/sampling.hpp"
+#include "scintray/optics/elliptical.hpp"
+
+namespace scintray::optics {
+
+namespace {
+
+using Complex = std::complex<double>;
+using core::Vec3;
+using Eigen::Matrix3d;
+
+/// Part of |D| by which the polarisation of a ray with a mode may be off.
+constexpr double kModeTolerance = 1e-9;
+
+double of_axes(const std::array<double, 3>& values, const Vec3& squared) {
+  return values[0] * squared.x() + values[1] * squared.y() + values[2] * squared.z();
+}
+
+/// Principal directions of a symmetric tensor in the plane of two perpendicular unit vectors.
+struct PlaneAxes {
+  Vec3 first, second;
+  PlaneAxes(const Matrix3d& tensor, const Vec3& u, const Vec3& v) {
+    const Vec3 tu = tensor * u;
+    const double uu = u.dot(tu), uv = v.dot(tu), vv = v.dot(tensor * v);
+    const double angle = 0.5 * std::atan2(2.0 * uv, uu - vv);
+    first = std::cos(angle) * u + std::sin(angle) * v;
+    second = std::cos(angle) * v - std::sin(angle) * u;
+  }
+};
+
+/// n_g of a wave along its normal: n - wavelength dn/dwavelength at a fixed normal, where 1/n^2 is a
+/// stationary value of the sum of d_i^2 / n_i^2 over the principal axes, d being the direction of D.
+double group_index_of(const BirefringentOptics& medium, double n, const Vec3& d_squared) {
+  std::array<double, 3> slopes;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double ni = medium.index[i];
+    slopes[i] = (medium.group_index[i] - ni) / (ni * ni * ni);
+  }
+  return n + n * n * n * of_axes(slopes, d_squared);
+}
+
+/// Tangential fields of a plane wave in the frame of a face: Ex, Ey, Hx, Hy, with H times the impedance of
+/// vacuum.
+using Tangential = Eigen::Vector4cd;
+
+double flux_of(const Tangential& f) { return (f[0] * std::conj(f[3]) - f[1] * std::conj(f[2])).real(); }
+
+/// A wave that leaves a face.
+struct LeavingWave {
+  Tangential field;
+  Vec3 electric;  ///< in the face's frame; of a mode of a birefringent medium that propagates
+  Vec3 ray;
+};
+
+/// Frame of a face: x along the tangential wave vector, z from the medium of incidence into the other.
+class FaceFrame {
+ public:
+  FaceFrame(const Vec3& wave_vector, const Vec3& m) {
+    const Vec3 tangential = wave_vector - wave_vector.dot(m) * m;
+    q_ = tangential.norm();
+    constexpr double kHeadOn = 1e-12;
+    if (q_ < kHeadOn) q_ = 0.0;
+    const Vec3 x = q_ > 0.0 ? Vec3(tangential / q_) : core::Frame::about(m).x;
+    to_face_.row(0) = x;
+    to_face_.row(1) = -m.cross(x);
+    to_face_.row(2) = -m;
+  }
+  double q() const { return q_; }
+  Vec3 to_face(const Vec3& v) const { return to_face_ * v; }
+  Vec3 to_world(const Vec3& v) const { return to_face_.transpose() * v; }
+  Matrix3d to_face(const Matrix3d& tensor) const { return to_face_ * tensor * to_face_.transpose(); }
+  Vec3 y() const { return to_face_.row(1); }
+
+ private:
+  double q_;
+  Matrix3d to_face_;
+};
+
+/// The two waves that leave a face into a medium of one index, polarised across and in the plane of
+/// incidence.
+std::array<LeavingWave, 2> waves_in(double n, double q, double sign) {
+  const double square = n * n - q * q;
+  const Complex along =
+      square >= 0.0 ? Complex(sign * std::sqrt(square)) : Complex(0.0, sign * std::sqrt(-square));
+  std::array<LeavingWave, 2> waves;
+  waves[0].field << 0.0, 1.0, -along, 0.0;
+  waves[1].field << along / n, 0.0, 0.0, n;
+  return waves;
+}
+
+/// Rates of change along z of the tangential fields of waves with tangential wave vector q: d/dz of (Ex, Ey,
+/// Hx, Hy) is i 2 pi / wavelength times this matrix times them.
+Eigen::Matrix4d rates(const Matrix3d& e, double q) {
+  Eigen::Matrix4d m = Eigen::Matrix4d::Zero();
+  const double zz = e(2, 2);
+  // Ez = -(q Hy + e_zx Ex + e_zy Ey) / e_zz
+  m(0, 0) = -q * e(2, 0) / zz;
+  m(0, 1) = -q * e(2, 1) / zz;
+  m(0, 3) = 1.0 - q * q / zz;
+  m(1, 2) = -1.0;
+  m(2, 0) = -e(1, 0) + e(1, 2) * e(2, 0) / zz;
+  m(2, 1) = q * q - e(1, 1) + e(1, 2) * e(2, 1) / zz;
+  m(2, 3) = q * e(1, 2) / zz;
+  m(3, 0) = e(0, 0) - e(0, 2) * e(2, 0) / zz;
+  m(3, 1) = e(0, 1) - e(0, 2) * e(2, 1) / zz;
+  m(3, 3) = -q * e(0, 2) / zz;
+  return m;
+}
+
+/// Flux of two real waves into each other: 0 for waves of different wave vectors.
+double mutual_flux(const Eigen::Vector4d& a, const Eigen::Vector4d& b) {
+  return 0.5 * (a[0] * b[3] + b[0] * a[3] - a[1] * b[2] - b[1] * a[2]);
+}
+
+/// The two waves that leave a face into a birefringent medium, towards +z or -z by the sign.
+std::array<LeavingWave, 2> waves_in(const Matrix3d& e, double q, double sign) {
+  const Eigen::EigenSolver<Eigen::Matrix4d> solver(rates(e, q));
+  struct Wave {
+    Complex along;
+    Tangential field;
+    double outward;  ///< above 0: propagates or decays away from the face
+    bool real;
+  };
+  std::array<Wave, 4> all;
+  constexpr double kReal = 1e-12;
+  for (int i = 0; i < 4; ++i) {
+    Wave& wave = all[static_cast<std::size_t>(i)];
+    wave.along = solver.eigenvalues()[i];
+    wave.field = solver.eigenvectors().col(i);
+    wave.real = std::abs(wave.along.imag()) < kReal;
+    if (wave.real) wave.field = wave.field.real().normalized().cast<Complex>();
+    wave.outward = sign * (wave.real ? flux_of(wave.field) : wave.along.imag());
+  }
+  std::sort(all.begin(), all.end(), [](const Wave& a, const Wave& b) { return a.outward > b.outward; });
+  // Waves of one wave vector, on an optic axis, are made independent in their flux.
+  constexpr double kSameWave = 1e-9;
+  if (all[0].real && all[1].real && std::abs(all[0].along - all[1].along) < kSameWave) {
+    const Eigen::Vector4d first = all[0].field.real(), second = all[1].field.real();
+    all[1].field = (second - mutual_flux(first, second) / mutual_flux(first, first) * first)
+                       .normalized()
+                       .cast<Complex>();
+  }
+  std::array<LeavingWave, 2> waves;
+  for (std::size_t i = 0; i < 2; ++i) {
+    waves[i].field = all[i].field;
+    if (!all[i].real) continue;
+    const Eigen::Vector4d f = all[i].field.real();
+    const Vec3 electric(f[0], f[1], -(q * f[3] + e(2, 0) * f[0] + e(2, 1) * f[1]) / e(2, 2));
+    const Vec3 magnetic(f[2], f[3], q * f[1]);
+    waves[i].ray = electric.cross(magnetic).normalized();
+    waves[i].electric = (electric - electric.dot(waves[i].ray) * waves[i].ray).normalized();
+  }
+  return waves;
+}
+
+/// Light at a face: the waves that leave it, and their amplitudes.
+class FaceWaves {
+ public:
+  FaceWaves(const Ray& ray, const Vec3& m, const FaceMedium& here, const FaceMedium& behind)
+      : media_{here, behind}, frame_(wave_vector(ray, here), m) {
+    for (std::size_t side = 0; side < 2; ++side) {
+      const double sign = side == 0 ? -1.0 : 1.0;
+      const BirefringentOptics* crystal = media_[side].birefringent;
+      waves_[side] = crystal ? waves_in(frame_.to_face(crystal->permittivity.matrix()), frame_.q(), sign)
+                             : waves_in(media_[side].index, frame_.q(), sign);
+    }
+    const Tangential incident = incident_field(ray, here);
+    Eigen::Matrix4cd leaving;
+    for (std::size_t i = 0; i < 2; ++i) {
+      leaving.col(static_cast<int>(i)) = waves_[0][i].field;
+      leaving.col(static_cast<int>(i) + 2) = -waves_[1][i].field;
+    }
+    const Eigen::Vector4cd solved = Eigen::PartialPivLU<Eigen::Matrix4cd>(leaving).solve(-incident);
+    const double incident_flux = flux_of(incident);
+    for (std::size_t i = 0; i < 4; ++i) {
+      amplitude_[i] = solved[static_cast<int>(i)];
+      // What does not propagate carries no flux, and rounding gives it none.
+      const double flux = (i < 2 ? -1.0 : 1.0) * flux_of(wave(i).field) / incident_flux;
+      share_[i] = std::max(0.0, std::norm(amplitude_[i]) * flux);
+    }
+  }
+  const std::array<double, 4>& shares() const { return share_; }
+
+  /// Sets the ray to one of the waves. @return true when it is transmitted
+  bool leave_by(std::size_t chosen, Ray& ray) const {
+    const std::size_t side = chosen / 2;
+    if (media_[side].birefringent) {
+      ray.direction = frame_.to_world(wave(chosen).ray).normalized();
+      ray.polarisation = frame_.to_world(wave(chosen).electric).normalized();
+      ray.ellipticity_rad = 0.0;
+      return side == 1;
+    }
+    const double n = media_[side].index, q = frame_.q();
+    const double along = std::sqrt(std::max(0.0, n * n - q * q));
+    ray.direction = frame_.to_world(Vec3(q, 0.0, side == 0 ? -along : along)).normalized();
+    const bool keeps_phases = ray.keeps_phases;
+    set_field(ray, frame_.y(), {amplitude_[2 * side], amplitude_[2 * side + 1]});
+    if (!keeps_phases) ray.ellipticity_rad = 0.0;
+    return side == 1;
+  }
+
+ private:
+  const LeavingWave& wave(std::size_t i) const { return waves_[i / 2][i % 2]; }
+
+  static Vec3 wave_vector(const Ray& ray, const FaceMedium& here) {
+    if (!here.birefringent) return here.index * ray.direction;
+    const ModeOptics mode = mode_of(*here.birefringent, ray);
+    return mode.index * mode.wave_normal;
+  }
+
+  Tangential incident_field(const Ray& ray, const FaceMedium& here) const {
+    Tangential field;
+    if (!here.birefringent) {
+      const FieldComponents components = field_of(ray, frame_.y());
+      const std::array<LeavingWave, 2> towards = waves_in(here.index, frame_.q(), 1.0);
+      return components.s * towards[0].field + components.p * towards[1].field;
+    }
+    const Vec3 electric = frame_.to_face(ray.polarisation.vec());
+    const Vec3 magnetic = frame_.to_face(wave_vector(ray, here)).cross(electric);
+    field << electric.x(), electric.y(), magnetic.x(), magnetic.y();
+    return field;
+  }
+
+  std::array<FaceMedium, 2> media_;  ///< of incidence, and behind the face
+  FaceFrame frame_;
+  std::array<std::array<LeavingWave, 2>, 2> waves_;
+  std::array<Complex, 4> amplitude_;
+  std::array<double, 4> share_;
+};
+
+}  // namespace
+
+BirefringentOptics::BirefringentOptics(const Birefringence& medium, double wavelength_nm)
+    : directions(medium.directions) {
+  Vec3 squares;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const PrincipalAxis& axis = medium.axes[i];
+    index[i] = axis.index(wavelength_nm);
+    group_index[i] = axis.group_index ? (*axis.group_index)(wavelength_nm)
+                                      : index[i] - wavelength_nm * axis.index.derivative(wavelength_nm);
+    absorption_per_mm[i] = axis.absorption_per_mm(wavelength_nm);
+    squares[static_cast<int>(i)] = index[i] * index[i];
+  }
+  permittivity = Matrix3d(medium.directions * squares.asDiagonal() * medium.directions.transpose());
+}
+
+BirefringentOptics BirefringentOptics::in_frame(const core::Frame& frame) const {
+  Matrix3d to_frame;
+  to_frame << frame.x.transpose(), frame.y.transpose(), frame.z.transpose();
+  BirefringentOptics turned = *this;
+  turned.directions = Matrix3d(to_frame * directions.matrix());
+  turned.permittivity = Matrix3d(to_frame * permittivity.matrix() * to_frame.transpose());
+  return turned;
+}
+
+ModeOptics mode_of(const BirefringentOptics& medium, const Ray& ray) {
+  const Vec3 e = ray.polarisation, d = medium.permittivity.matrix() * e;
+  const double length = d.norm(), energy = e.dot(d);
+  ModeOptics mode;
+  mode.wave_normal = d.cross(ray.direction.cross(e)).normalized();
+  mode.index = length / std::sqrt(energy);
+  const double cosine = energy / length;  // of the angle between ray and wave normal
+  const Matrix3d to_axes = medium.directions.matrix().transpose();
+  const Vec3 e_axes = to_axes * e, d_axes = to_axes * d / length;
+  mode.group_index = cosine * group_index_of(medium, mode.index, d_axes.cwiseAbs2());
+  // Loss of power, sum of n_i alpha_i E_i^2, over the flux of energy along the ray, n cos for a unit field.
+  std::array<double, 3> losses;
+  for (std::size_t i = 0; i < 3; ++i) losses[i] = medium.index[i] * medium.absorption_per_mm[i];
+  mode.dipole_rate = mode.group_index / (mode.index * mode.index * cosine * cosine);
+  mode.absorption_per_mm = of_axes(losses, e_axes.cwiseAbs2()) / (mode.index * cosine);
+  return mode;
+}
+
+bool has_mode(const BirefringentOptics& medium, const Ray& ray) {
+  if (ray.polarisation.isZero(0.0) || ray.ellipticity_rad != 0.0) return false;
+  const Vec3 d = medium.permittivity.matrix() * ray.polarisation.vec();
+  return std::abs(d.dot(ray.direction.cross(ray.polarisation))) < kModeTolerance * d.norm();
+}
+
+void take_mode(const BirefringentOptics& medium, Ray& ray, core::Rng& rng) {
+  if (has_mode(medium, ray)) return;
+  // Both fields are across the ray, D of one is across the field of the other.
+  const core::Frame frame = core::Frame::about(ray.direction);
+  const PlaneAxes modes(medium.permittivity.matrix(), frame.x, frame.y);
+  double share = 0.5;
+  if (!ray.polarisation.isZero(0.0)) {
+    const FieldComponents field = field_of(ray, modes.first);
+    share = std::norm(field.s) / (std::norm(field.s) + std::norm(field.p));
+  }
+  ray.polarisation = rng.uniform() < share ? modes.first : modes.second;
+  ray.ellipticity_rad = 0.0;
+}
+
+void emit_isotropic(const BirefringentOptics& medium, Ray& ray, core::Rng& rng) {
+  std::array<double, 3> inverse;
+  for (std::size_t i = 0; i < 3; ++i) inverse[i] = 1.0 / (medium.index[i] * medium.index[i]);
+  const Vec3 impermeability(inverse[0], inverse[1], inverse[2]);
+  const Matrix3d tensor = impermeability.asDiagonal();
+  // An upper bound of n_g / cos^2: cos is at least twice the geometric over the arithmetic mean of the
+  // extreme permittivities (Kantorovich's inequality).
+  const auto [low, high] = std::minmax_element(medium.index.begin(), medium.index.end());
+  double most_dispersion = 0.0;
+  for (std::size_t i = 0; i < 3; ++i)
+    most_dispersion = std::max(most_dispersion, medium.group_index[i] - medium.index[i]);
+  const double ratio = *high / *low, mean = 0.5 * (ratio + 1.0 / ratio);
+  const double bound = (*high + ratio * ratio * ratio * most_dispersion) * mean * mean;
+  for (;;) {
+    const Vec3 normal = core::sample_isotropic(rng);
+    const core::Frame frame = core::Frame::about(normal);
+    const PlaneAxes modes(tensor, frame.x, frame.y);
+    const Vec3 d = rng.uniform() < 0.5 ? modes.first : modes.second;
+    const Vec3 along = impermeability.cwiseProduct(d);
+    const double n = 1.0 / std::sqrt(d.dot(along));
+    const Vec3 e = along.normalized();
+    const double cosine = d.dot(e);
+    if (rng.uniform() * bound >= group_index_of(medium, n, d.cwiseAbs2()) / (cosine * cosine)) continue;
+    const Vec3 direction = (normal - e.dot(normal) * e).normalized();
+    ray.direction = (medium.directions.matrix() * direction).normalized();
+    ray.polarisation = (medium.directions.matrix() * e).normalized();
+    ray.ellipticity_rad = 0.0;
+    return;
+  }
+}
+
+void scatter_rayleigh(const BirefringentOptics& medium, Ray& ray, core::Rng& rng) {
+  const Vec3 before = ray.polarisation;
+  do {
+    emit_isotropic(medium, ray, rng);
+  } while (rng.uniform() >= std::pow(before.dot(ray.polarisation.vec()), 2));
+}
+
+bool interact_at_birefringent(Ray& ray, const Vec3& m, const FaceMedium& here, const FaceMedium& behind,
+                              core::Rng& rng) {
+  if (here.birefringent)
+    take_mode(*here.birefringent, ray, rng);
+  else if (ray.polarisation.isZero(0.0))
+    repolarise(ray, rng);
+  const FaceWaves face(ray, m, here, behind);
+  const std::array<double, 4>& share = face.shares();
+  double u = rng.uniform() * (share[0] + share[1] + share[2] + share[3]);
+  // Light in a medium of one index leaves as one wave of both polarisations.
+  for (const std::size_t side : {std::size_t{1}, std::size_t{0}}) {
+    for (std::size_t i = 2 * side; i < 2 * side + 2; ++i) {
+      if (u < share[i]) return face.leave_by(i, ray);
+      u -= share[i];
+    }
+  }
+  // Rounding: the strongest.
+  return face.leave_by(static_cast<std::size_t>(std::max_element(share.begin(), share.end()) - share.begin()),
+                       ray);
+}
+
+std::array<double, 4> power_shares(const Ray& ray, const Vec3& m, const FaceMedium& here,
+                                   const FaceMedium& behind) {
+  return FaceWaves(ray, m, here, behind).shares();
+}
+
+}  // namespace scintray::optics

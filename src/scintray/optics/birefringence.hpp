@@ -1,0 +1,106 @@
+#pragma once
+/// Light in birefringent media: uniaxial and biaxial crystals without optical activity.
+///
+/// In such a medium light of a direction has one of two linear polarisations, each with its own refractive
+/// index; the direction of its energy (the ray) is not that of its wave normal. A ray in the medium is a
+/// `Ray` as elsewhere: `direction` is the ray, along which the photon travels, and `polarisation` the
+/// electric field, which is across it. The two determine the mode, with its wave normal and index: with D =
+/// epsilon E and H along (ray x E), the wave normal is along D x H, and n^2 = D.D / E.D.
+///
+/// Light that splits in two does so by chance, with the shares of the power: the two parts of one photon's
+/// field do not interfere with each other afterwards. That holds where their retardation is many wavelengths
+/// over the spectrum of the light, as in crystals of millimetres, and not in wave plates.
+///
+/// Equations: Maxwell's, for plane waves (P. Yeh 1979, J. Opt. Soc. Am. 69, 742, and D. W. Berreman 1972, J.
+/// Opt. Soc. Am. 62, 502, have them in this form; both cited from memory, not opened).
+/// tests/surface/birefringence_test.cpp checks them against closed forms.
+
+#include <array>
+#include <optional>
+#include <type_traits>
+
+#include "scintray/core/curve.hpp"
+#include "scintray/core/plain_vec.hpp"
+#include "scintray/optics/fresnel.hpp"
+
+namespace scintray::optics {
+
+/// Light whose electric field is along one of the principal axes of a medium.
+struct PrincipalAxis {
+  core::Curve index;                       ///< refractive index against wavelength (nm)
+  std::optional<core::Curve> group_index;  ///< nothing: from the slope of `index`
+  core::Curve absorption_per_mm;           ///< without re-emission, against wavelength (nm)
+};
+
+/// What makes a medium birefringent.
+struct Birefringence {
+  std::array<PrincipalAxis, 3> axes;  ///< x, y, z
+  /// Directions of the principal axes, in columns; a rotation.
+  Eigen::Matrix3d directions = Eigen::Matrix3d::Identity();
+};
+
+/// A birefringent medium at one wavelength.
+struct BirefringentOptics {
+  std::array<double, 3> index, group_index, absorption_per_mm;  ///< of the principal axes
+  core::PlainMatrix3 directions;                                ///< of the axes, in columns; world
+  core::PlainMatrix3 permittivity;                              ///< relative; world
+
+  BirefringentOptics(const Birefringence& medium, double wavelength_nm);
+  /// The same with directions in a frame.
+  BirefringentOptics in_frame(const core::Frame& frame) const;
+};
+static_assert(std::is_trivially_copyable_v<BirefringentOptics>);
+
+/// A medium at a face: of one index, or birefringent, where `index` is not used.
+struct FaceMedium {
+  double index = 1.0;
+  const BirefringentOptics* birefringent = nullptr;
+};
+
+/// Numbers of the mode of a ray in a birefringent medium.
+struct ModeOptics {
+  core::Vec3 wave_normal;          ///< unit vector
+  double index = 1.0;              ///< of the wave, along its normal
+  double group_index = 1.0;        ///< c over the speed of the energy along the ray
+  double absorption_per_mm = 0.0;  ///< along the ray
+  /// Rate per path at which dipoles of random orientation scatter it, relative: the square of the field over
+  /// the flux of energy, with the density of states that emit_isotropic has. In a medium of one index n_g /
+  /// n^2.
+  double dipole_rate = 1.0;
+};
+
+/// The mode of a ray that has one (take_mode).
+ModeOptics mode_of(const BirefringentOptics& medium, const Ray& ray);
+
+/// True when the ray's polarisation is one of the two of its direction.
+bool has_mode(const BirefringentOptics& medium, const Ray& ray);
+
+/// Gives a ray whose polarisation is neither of the two of its direction one of them, by chance with the
+/// shares of its field; without polarisation with equal shares. A ray that has a mode keeps it.
+void take_mode(const BirefringentOptics& medium, Ray& ray, core::Rng& rng);
+
+/// Draws direction and polarisation of light from dipoles of random orientation. Per solid angle of wave
+/// normals the emission into a mode is proportional to the density of states, n^2 n_g, and to the square of
+/// the field of a photon, 1 / (E.D) for a unit vector E, of which the product is n_g / cos^2 of the angle
+/// between ray and normal.
+void emit_isotropic(const BirefringentOptics& medium, Ray& ray, core::Rng& rng);
+
+/// Rayleigh scattering: as emit_isotropic, with the square of the cosine between the fields before and after.
+void scatter_rayleigh(const BirefringentOptics& medium, Ray& ray, core::Rng& rng);
+
+/// As interact_at_facet(ray, m, n1, n2, rng), where at least one of the two media is birefringent: the ray
+/// leaves in one of the modes of the reflected or the transmitted light, with the share of each in the power.
+/// The fields are matched without approximation, evanescent ones included.
+///
+/// @param m  unit normal opposed to the ray
+/// @return true when the ray was refracted into `behind`
+[[gnu::noinline, gnu::cold]] bool interact_at_birefringent(Ray& ray, const core::Vec3& m,
+                                                           const FaceMedium& here, const FaceMedium& behind,
+                                                           core::Rng& rng);
+
+/// Shares of the power of what leaves a face, of light of the power 1: two reflected modes, then two
+/// transmitted ones (in a medium of one index: polarised across and in the plane of incidence).
+std::array<double, 4> power_shares(const Ray& ray, const core::Vec3& m, const FaceMedium& here,
+                                   const FaceMedium& behind);
+
+}  // namespace scintray::optics
