@@ -45,15 +45,16 @@ struct MediumRecord {
   bool opaque = false;
   bool shifts = false;     ///< has a wavelength shifter
   bool particles = false;  ///< has particles that scatter
+  bool birefringent = false;
   std::uint32_t first_shift =
       0;  ///< with a shifter: first entry of SceneOptics::shifting_per_mm, `count` in all
-  bool birefringent = false;
-  std::uint32_t first_birefringent = 0;  ///< then: first entry of SceneOptics::birefringent, `count` in all
+  std::uint32_t first_birefringent =
+      0;  ///< of a birefringent medium: first entry of SceneOptics::birefringent, `count` in all
 
   /// Of the wavelengths of the table, which are those in use.
   double middle_nm() const { return per_nm > 0.0 ? low_nm + 0.5 * last / per_nm : low_nm; }
 };
-static_assert(std::is_trivially_copyable_v<MediumRecord>);
+static_assert(std::is_trivially_copyable_v<MediumRecord> && sizeof(MediumRecord) == 48);
 static_assert(std::is_trivially_copyable_v<optics::MediumOptics>);
 
 /// Optical properties of all media, tabulated at equal steps of wavelength, for use once per interaction.
@@ -135,7 +136,7 @@ struct Interface {
   core::SensorId back_sensor, front_sensor;  ///< sensor reached by light that enters that region
   core::PartId back_sensor_part, front_sensor_part;
   core::FaceId back_face, front_face;  ///< of the two parts
-  bool plain = false;                  ///< a single smooth surface
+  bool plain = false;                  ///< a single smooth surface between media of one index
 };
 static_assert(std::is_trivially_copyable_v<Interface> && sizeof(Interface) == 48);
 

@@ -196,16 +196,6 @@ inline void cross(const scene::Scene& scene, const scene::Interface& interface, 
   }
 }
 
-/// Interaction at a smooth boundary next to a birefringent medium; true when the photon passes it.
-[[gnu::noinline, gnu::cold]] bool cross_birefringent(const BirefringentSides& sides, bool from_back,
-                                                     const core::Vec3& against, double there,
-                                                     source::Photon& photon, core::Rng& rng) {
-  const optics::FaceMedium here{photon.optics.index, from_back ? sides.back : sides.front};
-  const optics::FaceMedium behind{there, from_back ? sides.front : sides.back};
-  if (here.birefringent == behind.birefringent) return true;  // the same medium, with the same axes
-  return optics::interact_at_birefringent(photon.ray, against, here, behind, rng);
-}
-
 void set_place(const scene::BoundaryLink& link, const BoundaryPlace& at, const source::Photon& photon,
                Step& step) {
   step.interface = link.interface;
@@ -229,15 +219,13 @@ void interact_at_boundary(const scene::Scene& scene, std::uint32_t triangle, sou
   if (!interface.plain || here != there) ++photon.interactions;
 
   bool crossed;
-  const BirefringentSides sides = birefringent_sides(scene, interface, photon.wavelength_nm);
   if (interface.plain) {
-    crossed = sides.back || sides.front
-                  ? cross_birefringent(sides, link.from_back, -outward, there, photon, rng)
-                  : optics::interact_at_facet(photon.ray, -outward, here, there, rng);
+    crossed = optics::interact_at_facet(photon.ray, -outward, here, there, rng);
   } else {
     const core::Vec3 normal = link.from_back ? outward : core::Vec3(-outward);
     const double back = link.from_back ? here : there, front = link.from_back ? there : here;
     const double before_nm = photon.wavelength_nm;
+    const BirefringentSides sides = birefringent_sides(scene, interface, before_nm);
     const InterfaceApproach approach{
         scene, interface, link.from_back, normal, {back, front, gap, dry, sides.back, sides.front}};
     const InterfaceOutcome outcome = interact_at_interface(approach, photon, rng, records);
@@ -322,11 +310,12 @@ Step end_of_step(const scene::Scene& scene, const Propagation& propagation, sour
       result = total_reflection(scene, photon, propagation.triangle, propagation.cosine);
       break;
   }
-  if (!scene.optics.birefringent.empty() && !core::is_final(result.event)) [[unlikely]]
-    source::take_mode(scene, photon, rng);
   result.region = from;
   result.segments = propagation.segments;
   result.resolved = propagation.resolved;
+  if (scene.optics.birefringent.empty()) [[likely]]
+    return result;
+  if (!core::is_final(result.event)) source::take_mode(scene, photon, rng);
   return result;
 }
 

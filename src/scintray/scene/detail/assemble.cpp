@@ -77,7 +77,8 @@ class InterfaceMaker {
       result.front_surface = surface(face(t.front_face).surface, medium(t.front), medium(t.back));
     const bool has_back = result.back_surface.has_value();
     if (has_back != result.front_surface.has_value() && !result.gap_medium.has_value())
-      result.plain = scene_.surfaces[has_back ? result.back_surface : result.front_surface].plain();
+      result.plain = scene_.surfaces[has_back ? result.back_surface : result.front_surface].plain() &&
+                     !birefringent(t.back) && !birefringent(t.front);
     return result;
   }
 
@@ -302,6 +303,9 @@ class InterfaceMaker {
 
   const AssemblyFace& face(core::FaceId id) const { return assembly_.faces[id]; }
   const AssemblyPart& part(core::PartId id) const { return assembly_.parts[id]; }
+  bool birefringent(core::PartId id) const {
+    return assembly_.media[medium(id)].medium().birefringence != nullptr;
+  }
   core::MediumId medium(core::PartId id) const {
     return id == contact::kAmbient ? assembly_.ambient : part(id).medium;
   }

@@ -110,7 +110,7 @@ bool find_exact(const PartBodies& bodies, core::PartId of, std::vector<Entry>& e
 void link_smooth_media(Scene& scene) {
   for (BoundaryLink& link : scene.links) {
     const Interface& interface = scene.interfaces[link.interface];
-    if (interface.plain && !scene.keeps_phases && !touches_birefringent(scene, interface))
+    if (interface.plain && !scene.keeps_phases)
       link.smooth_to = scene.regions[link.from_back ? interface.front : interface.back].medium;
   }
   for (Region& region : scene.regions) {

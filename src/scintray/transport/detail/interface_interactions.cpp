@@ -58,11 +58,9 @@ struct SurfaceApproach {
 
 }  // namespace
 
-BirefringentSides birefringent_sides(const scene::Scene& scene, const scene::Interface& interface,
-                                     double wavelength_nm) {
+BirefringentSides find_birefringent_sides(const scene::Scene& scene, const scene::Interface& interface,
+                                          double wavelength_nm) {
   const scene::SceneOptics& optics = scene.optics;
-  if (optics.birefringent.empty()) [[likely]]
-    return {};
   const core::MediumId back = scene.regions[interface.back].medium;
   const core::MediumId front = scene.regions[interface.front].medium;
   const auto at = [&](core::MediumId own, core::MediumId other) -> const optics::BirefringentOptics* {

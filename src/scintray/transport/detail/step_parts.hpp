@@ -75,8 +75,15 @@ struct BirefringentSides {
   const optics::BirefringentOptics* back = nullptr;
   const optics::BirefringentOptics* front = nullptr;
 };
-BirefringentSides birefringent_sides(const scene::Scene& scene, const scene::Interface& interface,
-                                     double wavelength_nm);
+[[gnu::noinline, gnu::cold]] BirefringentSides find_birefringent_sides(const scene::Scene& scene,
+                                                                       const scene::Interface& interface,
+                                                                       double wavelength_nm);
+inline BirefringentSides birefringent_sides(const scene::Scene& scene, const scene::Interface& interface,
+                                            double wavelength_nm) {
+  if (scene.optics.birefringent.empty()) [[likely]]
+    return {};
+  return find_birefringent_sides(scene, interface, wavelength_nm);
+}
 
 /// Conditions of incidence of a photon at an interface.
 struct InterfaceApproach {
