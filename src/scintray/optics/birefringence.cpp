@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <utility>
 
 #include "scintray/core/sampling.hpp"
 #include "scintray/optics/elliptical.hpp"
@@ -120,16 +121,83 @@ double mutual_flux(const Eigen::Vector4d& a, const Eigen::Vector4d& b) {
   return 0.5 * (a[0] * b[3] + b[0] * a[3] - a[1] * b[2] - b[1] * a[2]);
 }
 
-/// The two waves that leave a face into a birefringent medium, towards +z or -z by the sign.
-std::array<LeavingWave, 2> waves_in(const Matrix3d& e, double q, double sign) {
-  const Eigen::EigenSolver<Eigen::Matrix4d> solver(rates(e, q));
-  struct Wave {
-    Complex along;
-    Tangential field;
-    double outward;  ///< above 0: propagates or decays away from the face
-    bool real;
-  };
+/// A wave in a birefringent medium.
+struct Wave {
+  Complex along;  ///< z component of its wave vector
+  Tangential field;
+  bool real = false;  ///< propagates
+};
+
+/// z components of the four wave vectors where all are real and no two nearly the same: the roots of Booker's
+/// quartic, the determinant of epsilon + N N^T - N^2 for N = (q, 0, root), by Aberth's iteration (both cited
+/// from memory, not opened).
+std::optional<std::array<double, 4>> distinct_roots(const Matrix3d& e, double q) {
+  const double a = e(0, 0), b = e(1, 1) - q * q, c = e(0, 1), d = e(0, 2), f = e(1, 2), g = e(2, 2) - q * q;
+  const double first = 1.0 / e(2, 2);
+  const double c3 = 2.0 * d * q * first;
+  const double c2 = (f * f + d * d - b * q * q - g * (a + b)) * first;
+  const double c1 = 2.0 * q * (c * f - b * d) * first;
+  const double c0 = (a * (b * g - f * f) - c * c * g + 2.0 * c * d * f - b * d * d) * first;
+  // From the roots without the odd terms, which are small where the medium is nearly isotropic.
+  const double discriminant = c2 * c2 - 4.0 * c0;
+  if (!(discriminant > 0.0)) return std::nullopt;
+  const double larger = 0.5 * (-c2 + std::sqrt(discriminant));
+  if (!(larger > 0.0) || !(c0 > 0.0)) return std::nullopt;
+  const double high = std::sqrt(larger), low = std::sqrt(c0 / larger);
+  std::array<double, 4> z{high, low, -low, -high};
+  constexpr int kMostRounds = 12;
+  constexpr double kConverged = 1e-10, kDistinct = 1e-3;  // a step triples the digits
+  for (int round = 0; round < kMostRounds; ++round) {
+    double largest = 0.0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const double x = z[i];
+      const double value = (((x + c3) * x + c2) * x + c1) * x + c0;
+      const double slope = ((4.0 * x + 3.0 * c3) * x + 2.0 * c2) * x + c1;
+      double repulsion = 0.0;
+      for (std::size_t j = 0; j < 4; ++j)
+        if (j != i) repulsion += 1.0 / (x - z[j]);
+      const double step = value / (slope - value * repulsion);
+      z[i] -= step;
+      largest = std::max(largest, std::abs(step));
+    }
+    if (!std::isfinite(largest)) return std::nullopt;
+    if (largest > kConverged * high) continue;
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        if (std::abs(z[i] - z[j]) < kDistinct) return std::nullopt;
+    return z;
+  }
+  return std::nullopt;
+}
+
+/// The propagating wave of a root: its field is across every row of epsilon + N N^T - N^2.
+Wave wave_of_root(const Matrix3d& e, double q, double along) {
+  Matrix3d m = e;
+  m(0, 0) -= along * along;
+  m(1, 1) -= q * q + along * along;
+  m(2, 2) -= q * q;
+  m(0, 2) += q * along;
+  m(2, 0) += q * along;
+  const Vec3 crosses[3] = {m.row(0).cross(m.row(1)), m.row(1).cross(m.row(2)), m.row(2).cross(m.row(0))};
+  const Vec3* best = &crosses[0];
+  for (const Vec3& candidate : crosses)
+    if (candidate.squaredNorm() > best->squaredNorm()) best = &candidate;
+  const Vec3 field = best->normalized();
+  Wave wave;
+  wave.along = along;
+  wave.real = true;
+  wave.field << field.x(), field.y(), -along * field.y(), along * field.x() - q * field.z();
+  return wave;
+}
+
+/// The four waves of a birefringent medium with tangential wave vector q.
+std::array<Wave, 4> waves_of(const Matrix3d& e, double q) {
   std::array<Wave, 4> all;
+  if (const auto roots = distinct_roots(e, q)) {
+    for (std::size_t i = 0; i < 4; ++i) all[i] = wave_of_root(e, q, (*roots)[i]);
+    return all;
+  }
+  const Eigen::EigenSolver<Eigen::Matrix4d> solver(rates(e, q));
   constexpr double kReal = 1e-12;
   for (int i = 0; i < 4; ++i) {
     Wave& wave = all[static_cast<std::size_t>(i)];
@@ -137,22 +205,32 @@ std::array<LeavingWave, 2> waves_in(const Matrix3d& e, double q, double sign) {
     wave.field = solver.eigenvectors().col(i);
     wave.real = std::abs(wave.along.imag()) < kReal;
     if (wave.real) wave.field = wave.field.real().normalized().cast<Complex>();
-    wave.outward = sign * (wave.real ? flux_of(wave.field) : wave.along.imag());
   }
-  std::sort(all.begin(), all.end(), [](const Wave& a, const Wave& b) { return a.outward > b.outward; });
+  return all;
+}
+
+/// The two waves that leave a face into a birefringent medium, towards +z or -z by the sign.
+std::array<LeavingWave, 2> waves_in(const Matrix3d& e, double q, double sign) {
+  std::array<Wave, 4> all = waves_of(e, q);
+  // Those that propagate or decay away from the face come first.
+  std::array<std::pair<double, std::size_t>, 4> order;
+  for (std::size_t i = 0; i < 4; ++i)
+    order[i] = {-sign * (all[i].real ? flux_of(all[i].field) : all[i].along.imag()), i};
+  std::sort(order.begin(), order.end());
+  std::array<Wave*, 2> leaving{&all[order[0].second], &all[order[1].second]};
   // Waves of one wave vector, on an optic axis, are made independent in their flux.
   constexpr double kSameWave = 1e-9;
-  if (all[0].real && all[1].real && std::abs(all[0].along - all[1].along) < kSameWave) {
-    const Eigen::Vector4d first = all[0].field.real(), second = all[1].field.real();
-    all[1].field = (second - mutual_flux(first, second) / mutual_flux(first, first) * first)
-                       .normalized()
-                       .cast<Complex>();
+  if (leaving[0]->real && leaving[1]->real && std::abs(leaving[0]->along - leaving[1]->along) < kSameWave) {
+    const Eigen::Vector4d first = leaving[0]->field.real(), second = leaving[1]->field.real();
+    leaving[1]->field = (second - mutual_flux(first, second) / mutual_flux(first, first) * first)
+                            .normalized()
+                            .cast<Complex>();
   }
   std::array<LeavingWave, 2> waves;
   for (std::size_t i = 0; i < 2; ++i) {
-    waves[i].field = all[i].field;
-    if (!all[i].real) continue;
-    const Eigen::Vector4d f = all[i].field.real();
+    waves[i].field = leaving[i]->field;
+    if (!leaving[i]->real) continue;
+    const Eigen::Vector4d f = leaving[i]->field.real();
     const Vec3 electric(f[0], f[1], -(q * f[3] + e(2, 0) * f[0] + e(2, 1) * f[1]) / e(2, 2));
     const Vec3 magnetic(f[2], f[3], q * f[1]);
     waves[i].ray = electric.cross(magnetic).normalized();
