@@ -99,10 +99,12 @@ TEST_CASE("Law: etendue: of Lambertian light into a taper the ratio of the areas
     const auto& shape = row.first;
     const auto& height = row.second;
     CAPTURE(shape);
-    const Traced traced = trace(hollow_taper(shape, height, "{ lambertian = [0, 0, -1] }", 100'000));
+    const int photons = law_photons(100'000);
+    const Traced traced = trace(hollow_taper(shape, height, "{ lambertian = [0, 0, -1] }", photons));
     const Scene& scene = traced.built.scene;
     check_fraction(traced.result, Fate::detected,
                    face_area(scene, "taper:exit") / face_area(scene, "taper:entrance"));
-    CHECK(traced.result.count(Fate::detected) + traced.result.count(Fate::escaped) == 100'000);
+    CHECK(traced.result.count(Fate::detected) + traced.result.count(Fate::escaped) ==
+          static_cast<std::uint64_t>(photons));
   }
 }

@@ -48,7 +48,8 @@ const std::string kLso300 =
 std::string source_in(const std::string& part, int photons, const std::string& rest = "") {
   return "[source]\ntype = \"photons\"\nwavelength = \"420 nm\"\npolarisation = \"unpolarised\"\nregion = { "
          "part = \"" +
-         part + "\"" + rest + " }\nphotons = " + std::to_string(photons) + "\n";
+         part + "\"" + rest + " }\nphotons = " + std::to_string(photons > 1 ? law_photons(photons) : 1) +
+         "\n";
 }
 
 /// The n-th point of a sequence of four numbers that fills the unit cube evenly: multiples of powers of the

@@ -1,5 +1,11 @@
 #include <algorithm>
+#include <array>
+#include <limits>
+#include <memory>
+#include <optional>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include "scintray/materials/detail/forms.hpp"
 
@@ -9,39 +15,41 @@ namespace {
 
 constexpr const char* kAxisKeys[] = {"y", "z"};
 
-/// Mean of curves at the points of all, within the range of every one; a constant where none covers any.
-core::Curve mean_of(const std::array<core::Curve, 3>& curves) {
-  double low = -HUGE_VAL, high = HUGE_VAL;
+using AxisCurves = std::array<core::Curve, 3>;
+
+/// Wavelengths (nm) that every table of the axes covers; constants cover all.
+struct CommonRange {
+  double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
+
+  explicit CommonRange(const AxisCurves& curves) {
+    for (const core::Curve& curve : curves) {
+      if (curve.is_constant()) continue;
+      low = std::max(low, curve.x().front());
+      high = std::min(high, curve.x().back());
+    }
+  }
+  bool empty() const { return low > high; }
+  bool contains(double wavelength_nm) const { return wavelength_nm >= low && wavelength_nm <= high; }
+};
+
+/// Mean of curves at the points of all, within their common range, which is not empty.
+core::Curve mean_of(const AxisCurves& curves) {
+  const CommonRange range(curves);
   std::set<double> points;
-  for (const core::Curve& curve : curves) {
-    if (curve.is_constant()) continue;
-    low = std::max(low, curve.x().front());
-    high = std::min(high, curve.x().back());
-    points.insert(curve.x().begin(), curve.x().end());
-  }
-  std::vector<double> x, y;
+  for (const core::Curve& curve : curves)
+    if (!curve.is_constant()) points.insert(curve.x().begin(), curve.x().end());
+  std::erase_if(points, [&](double point) { return !range.contains(point); });
+  if (points.empty()) points.insert(0.0);
+  std::vector<double> mean;
   for (const double point : points)
-    if (point >= low && point <= high) x.push_back(point);
-  if (x.empty()) x.push_back(points.empty() ? 0.0 : low);
-  for (const double point : x) y.push_back((curves[0](point) + curves[1](point) + curves[2](point)) / 3.0);
-  return {std::move(x), std::move(y)};
+    mean.push_back((curves[0](point) + curves[1](point) + curves[2](point)) / 3.0);
+  return {{points.begin(), points.end()}, std::move(mean)};
 }
 
-/// True when the ranges of the tables have wavelengths in common.
-bool overlap(const std::array<core::Curve, 3>& curves) {
-  double low = -HUGE_VAL, high = HUGE_VAL;
-  for (const core::Curve& curve : curves) {
-    if (curve.is_constant()) continue;
-    low = std::max(low, curve.x().front());
-    high = std::min(high, curve.x().back());
-  }
-  return low <= high;
-}
-
-std::array<core::Curve, 3> indices_of(const optics::Birefringence& medium) {
+AxisCurves indices_of(const optics::Birefringence& medium) {
   return {medium.axes[0].index, medium.axes[1].index, medium.axes[2].index};
 }
-std::array<core::Curve, 3> absorptions_of(const optics::Birefringence& medium) {
+AxisCurves absorptions_of(const optics::Birefringence& medium) {
   return {medium.axes[0].absorption_per_mm, medium.axes[1].absorption_per_mm,
           medium.axes[2].absorption_per_mm};
 }
@@ -80,12 +88,14 @@ void read_birefringence(const config::TomlTable& index, const config::TomlTable&
   index.expect(
       key, !all_same, "a birefringent medium whose indices are all the same",
       "[index] is along the principal axis x; give [index.y] and [index.z] their own, or leave them out");
-  index.expect(key, overlap(indices_of(*axes)),
-               "the indices of the principal axes have no wavelengths in common",
+  const bool indices_meet = !CommonRange(indices_of(*axes)).empty();
+  const bool absorptions_meet = !CommonRange(absorptions_of(*axes)).empty();
+  index.expect(key, indices_meet, "the indices of the principal axes have no wavelengths in common",
                "give all three over one range of wavelengths");
-  absorption.expect(absorption.has("z") ? "z" : "y", overlap(absorptions_of(*axes)),
+  absorption.expect(absorption.has("z") ? "z" : "y", absorptions_meet,
                     "the absorptions of the principal axes have no wavelengths in common",
                     "give all of them over one range of wavelengths");
+  if (!indices_meet || !absorptions_meet) return;
   medium.index = mean_of(indices_of(*axes));
   medium.absorption_per_mm = mean_of(absorptions_of(*axes));
   medium.group_index.reset();
