@@ -95,6 +95,9 @@ TEST_CASE("Principal axes of a birefringent medium: two perpendicular directions
               {"not perpendicular"}, {"check the two directions"});
   check_scene(marked_at_key(spar("principal_axes = { x = [1, 0, 0] }\n"), "{ x = [1, 0, 0]"), {"no \"z\""},
               {"z = [0, 0, 1]"});
+  const std::string biaxial =
+      replaced(spar("principal_axes = { z = [0, 0, 1] }\n"), "z = { n = 1.5 }", "y = { n = 1.5 }");
+  check_scene(biaxial, {"z alone", "\"spar\" differs along x and y"}, {"x as well"});
   std::string ambient = replaced(spar(""), "ambient = \"air\"", "ambient = \"spar\"");
   check_scene(marked_at_key(std::move(ambient), "\"spar\""), {"ambient medium", "birefringent"},
               {"place it as a part"});

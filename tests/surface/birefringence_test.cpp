@@ -317,6 +317,68 @@ TEST_CASE("Isotropic emission: modes with their density of states") {
   CHECK(std::abs(mean - mean_square) < 4.0 * spread);
 }
 
+TEST_CASE("Isotropic emission does not depend on the group index") {
+  Birefringence medium;
+  const core::Curve flat = core::Curve::constant(1.5), steep({400.0, 600.0}, {1.7, 1.3});
+  const core::Curve other = core::Curve::constant(1.9);
+  for (PrincipalAxis& axis : medium.axes) axis = {flat, std::nullopt, {}};
+  medium.axes[2].index = other;
+  const BirefringentOptics without(medium, 500.0);
+  medium.axes[0].index = medium.axes[1].index = steep;
+  const BirefringentOptics with(medium, 500.0);
+  CHECK(with.group_index[0] > without.group_index[0] + 0.5);
+  core::Rng a(9, core::StreamKind::photon, 0), b(9, core::StreamKind::photon, 0);
+  for (int i = 0; i < 100; ++i) {
+    Ray one, same;
+    emit_isotropic(without, one, a);
+    emit_isotropic(with, same, b);
+    CHECK((one.direction - same.direction).norm() < 1e-12);
+  }
+}
+
+TEST_CASE(
+    "Light along an optic axis, however the crystal is turned: Fresnel's reflectance, and no preferred "
+    "field") {
+  core::Rng rng(10, core::StreamKind::photon, 0);
+  const double reflected = std::pow((kOrdinary - 1.0) / (kOrdinary + 1.0), 2);
+  for (int i = 0; i < 50'000; ++i) {
+    const Vec3 axis = core::sample_isotropic(rng);
+    const BirefringentOptics crystal = calcite_along(axis);
+    const Ray ray = ray_of(axis, core::sample_polarisation(axis, rng));
+    for (const bool inwards : {true, false}) {
+      const FaceMedium air{1.0, nullptr}, spar{1.0, &crystal};
+      const auto shares = power_shares(ray, -axis, inwards ? air : spar, inwards ? spar : air);
+      CHECK(std::abs(shares[0] + shares[1] - reflected) < 1e-9);
+      CHECK(std::abs(sum(shares) - 1.0) < 1e-9);
+    }
+  }
+}
+
+TEST_CASE("Total reflection from calcite into glass keeps the shares of the two polarisations") {
+  // The ordinary wave propagates in the calcite, the extraordinary one does not: what is reflected has a
+  // phase between its polarisations.
+  core::Rng rng(11, core::StreamKind::photon, 0);
+  const BirefringentOptics crystal = calcite_along(Vec3::UnitY());
+  const Vec3 m = Vec3::UnitZ();
+  const double angle = std::asin(1.55 / 1.6);
+  const Vec3 direction(std::sin(angle), 0.0, -std::cos(angle)), s = Vec3::UnitY();
+  const Vec3 field = (0.6 * s + 0.8 * s.cross(direction)).normalized();
+  const FaceMedium glass{1.6, nullptr}, spar{1.0, &crystal};
+  const auto shares = power_shares(ray_of(direction, field), m, glass, spar);
+  REQUIRE(shares[0] > 0.1);
+  REQUIRE(shares[1] > 1e-4);
+  double sum_s = 0.0;
+  int reflections = 0;
+  for (int i = 0; i < 2000; ++i) {
+    Ray ray = ray_of(direction, field);
+    if (interact_at_birefringent(ray, m, glass, spar, rng)) continue;
+    ++reflections;
+    sum_s += std::pow(ray.polarisation.dot(s), 2);
+  }
+  REQUIRE(reflections > 100);
+  CHECK(sum_s / reflections == doctest::Approx(shares[0] / (shares[0] + shares[1])).epsilon(1e-9));
+}
+
 TEST_CASE("A ray without a mode takes one with the share of its field") {
   core::Rng rng(8, core::StreamKind::photon, 0);
   const BirefringentOptics crystal = turned_crystal({1.5, 1.65, 1.9});

@@ -57,6 +57,7 @@ double flux_of(const Tangential& f) { return (f[0] * std::conj(f[3]) - f[1] * st
 /// A wave that leaves a face.
 struct LeavingWave {
   Tangential field;
+  bool carries_power = true;
   Vec3 electric;  ///< in the face's frame; of a mode of a birefringent medium that propagates
   Vec3 ray;
 };
@@ -204,7 +205,11 @@ std::array<Wave, 4> waves_of(const Matrix3d& e, double q) {
     wave.along = solver.eigenvalues()[i];
     wave.field = solver.eigenvectors().col(i);
     wave.real = std::abs(wave.along.imag()) < kReal;
-    if (wave.real) wave.field = wave.field.real().normalized().cast<Complex>();
+    if (!wave.real) continue;
+    // Of two equal waves, on an optic axis, rounding may make a conjugate pair: its parts are the two.
+    const Eigen::Vector4d part =
+        wave.along.imag() < 0.0 ? Eigen::Vector4d(wave.field.imag()) : Eigen::Vector4d(wave.field.real());
+    wave.field = part.normalized().cast<Complex>();
   }
   return all;
 }
@@ -229,6 +234,7 @@ std::array<LeavingWave, 2> waves_in(const Matrix3d& e, double q, double sign) {
   std::array<LeavingWave, 2> waves;
   for (std::size_t i = 0; i < 2; ++i) {
     waves[i].field = leaving[i]->field;
+    waves[i].carries_power = leaving[i]->real;
     if (!leaving[i]->real) continue;
     const Eigen::Vector4d f = leaving[i]->field.real();
     const Vec3 electric(f[0], f[1], -(q * f[3] + e(2, 0) * f[0] + e(2, 1) * f[1]) / e(2, 2));
@@ -260,15 +266,15 @@ class FaceWaves {
     const double incident_flux = flux_of(incident);
     for (std::size_t i = 0; i < 4; ++i) {
       amplitude_[i] = solved[static_cast<int>(i)];
-      // What does not propagate carries no flux, and rounding gives it none.
+      // In a medium of one index what does not propagate has a flux of exactly 0.
       const double flux = (i < 2 ? -1.0 : 1.0) * flux_of(wave(i).field) / incident_flux;
-      share_[i] = std::max(0.0, std::norm(amplitude_[i]) * flux);
+      share_[i] = wave(i).carries_power ? std::max(0.0, std::norm(amplitude_[i]) * flux) : 0.0;
     }
   }
   const std::array<double, 4>& shares() const { return share_; }
 
   /// Sets the ray to one of the waves. @return true when it is transmitted
-  bool leave_by(std::size_t chosen, Ray& ray) const {
+  bool leave_by(std::size_t chosen, Ray& ray, core::Rng& rng) const {
     const std::size_t side = chosen / 2;
     if (media_[side].birefringent) {
       ray.direction = frame_.to_world(wave(chosen).ray).normalized();
@@ -279,9 +285,20 @@ class FaceWaves {
     const double n = media_[side].index, q = frame_.q();
     const double along = std::sqrt(std::max(0.0, n * n - q * q));
     ray.direction = frame_.to_world(Vec3(q, 0.0, side == 0 ? -along : along)).normalized();
-    const bool keeps_phases = ray.keeps_phases;
-    set_field(ray, frame_.y(), {amplitude_[2 * side], amplitude_[2 * side + 1]});
-    if (!keeps_phases) ray.ellipticity_rad = 0.0;
+    const Vec3 s = frame_.y();
+    const Complex of_s = amplitude_[2 * side], of_p = amplitude_[2 * side + 1];
+    if (ray.keeps_phases) {
+      set_field(ray, s, {of_s, of_p});
+      return side == 1;
+    }
+    // Without phases: the shares of the power, with a sign that is drawn so that its mean is the cosine of
+    // the phase.
+    const double size = std::abs(of_s) * std::abs(of_p);
+    const double in_phase = size > 0.0 ? (of_p * std::conj(of_s)).real() / size : 1.0;
+    const double sign = rng.uniform() < 0.5 * (1.0 + in_phase) ? 1.0 : -1.0;
+    ray.polarisation =
+        (std::abs(of_s) * s + sign * std::abs(of_p) * s.cross(ray.direction.vec())).normalized();
+    ray.ellipticity_rad = 0.0;
     return side == 1;
   }
 
@@ -330,6 +347,15 @@ BirefringentOptics::BirefringentOptics(const Birefringence& medium, double wavel
   permittivity = Matrix3d(medium.directions * squares.asDiagonal() * medium.directions.transpose());
 }
 
+bool alike(const PrincipalAxis& a, const PrincipalAxis& b) {
+  const auto same = [](const core::Curve& one, const core::Curve& other) {
+    return one.x() == other.x() && one.y() == other.y();
+  };
+  return same(a.index, b.index) && same(a.absorption_per_mm, b.absorption_per_mm) &&
+         a.group_index.has_value() == b.group_index.has_value() &&
+         (!a.group_index || same(*a.group_index, *b.group_index));
+}
+
 BirefringentOptics BirefringentOptics::in_frame(const core::Frame& frame) const {
   Matrix3d to_frame;
   to_frame << frame.x.transpose(), frame.y.transpose(), frame.z.transpose();
@@ -352,7 +378,7 @@ ModeOptics mode_of(const BirefringentOptics& medium, const Ray& ray) {
   // Loss of power, sum of n_i alpha_i E_i^2, over the flux of energy along the ray, n cos for a unit field.
   std::array<double, 3> losses;
   for (std::size_t i = 0; i < 3; ++i) losses[i] = medium.index[i] * medium.absorption_per_mm[i];
-  mode.dipole_rate = mode.group_index / (mode.index * mode.index * cosine * cosine);
+  mode.dipole_rate = 1.0 / (mode.index * cosine);
   mode.absorption_per_mm = of_axes(losses, e_axes.cwiseAbs2()) / (mode.index * cosine);
   return mode;
 }
@@ -382,14 +408,11 @@ void emit_isotropic(const BirefringentOptics& medium, Ray& ray, core::Rng& rng) 
   for (std::size_t i = 0; i < 3; ++i) inverse[i] = 1.0 / (medium.index[i] * medium.index[i]);
   const Vec3 impermeability(inverse[0], inverse[1], inverse[2]);
   const Matrix3d tensor = impermeability.asDiagonal();
-  // An upper bound of n_g / cos^2: cos is at least twice the geometric over the arithmetic mean of the
-  // extreme permittivities (Kantorovich's inequality).
+  // An upper bound of n / cos^2: cos is at least twice the geometric over the arithmetic mean of the extreme
+  // permittivities (Kantorovich's inequality).
   const auto [low, high] = std::minmax_element(medium.index.begin(), medium.index.end());
-  double most_dispersion = 0.0;
-  for (std::size_t i = 0; i < 3; ++i)
-    most_dispersion = std::max(most_dispersion, medium.group_index[i] - medium.index[i]);
   const double ratio = *high / *low, mean = 0.5 * (ratio + 1.0 / ratio);
-  const double bound = (*high + ratio * ratio * ratio * most_dispersion) * mean * mean;
+  const double bound = *high * mean * mean;
   for (;;) {
     const Vec3 normal = core::sample_isotropic(rng);
     const core::Frame frame = core::Frame::about(normal);
@@ -399,7 +422,7 @@ void emit_isotropic(const BirefringentOptics& medium, Ray& ray, core::Rng& rng) 
     const double n = 1.0 / std::sqrt(d.dot(along));
     const Vec3 e = along.normalized();
     const double cosine = d.dot(e);
-    if (rng.uniform() * bound >= group_index_of(medium, n, d.cwiseAbs2()) / (cosine * cosine)) continue;
+    if (rng.uniform() * bound >= n / (cosine * cosine)) continue;
     const Vec3 direction = (normal - e.dot(normal) * e).normalized();
     ray.direction = (medium.directions.matrix() * direction).normalized();
     ray.polarisation = (medium.directions.matrix() * e).normalized();
@@ -427,13 +450,13 @@ bool interact_at_birefringent(Ray& ray, const Vec3& m, const FaceMedium& here, c
   // Light in a medium of one index leaves as one wave of both polarisations.
   for (const std::size_t side : {std::size_t{1}, std::size_t{0}}) {
     for (std::size_t i = 2 * side; i < 2 * side + 2; ++i) {
-      if (u < share[i]) return face.leave_by(i, ray);
+      if (u < share[i]) return face.leave_by(i, ray, rng);
       u -= share[i];
     }
   }
   // Rounding: the strongest.
   return face.leave_by(static_cast<std::size_t>(std::max_element(share.begin(), share.end()) - share.begin()),
-                       ray);
+                       ray, rng);
 }
 
 std::array<double, 4> power_shares(const Ray& ray, const Vec3& m, const FaceMedium& here,

@@ -32,6 +32,9 @@ struct PrincipalAxis {
   core::Curve absorption_per_mm;           ///< without re-emission, against wavelength (nm)
 };
 
+/// True when light of two axes has the same properties.
+bool alike(const PrincipalAxis& a, const PrincipalAxis& b);
+
 /// What makes a medium birefringent.
 struct Birefringence {
   std::array<PrincipalAxis, 3> axes;  ///< x, y, z
@@ -63,9 +66,8 @@ struct ModeOptics {
   double index = 1.0;              ///< of the wave, along its normal
   double group_index = 1.0;        ///< c over the speed of the energy along the ray
   double absorption_per_mm = 0.0;  ///< along the ray
-  /// Rate per path at which dipoles of random orientation scatter it, relative: the square of the field over
-  /// the flux of energy, with the density of states that emit_isotropic has. In a medium of one index n_g /
-  /// n^2.
+  /// Rate per path at which dipoles of random orientation scatter it, relative: the square of its field over
+  /// the flux of energy, 1 / (n cos) with the angle between ray and normal.
   double dipole_rate = 1.0;
 };
 
@@ -81,8 +83,8 @@ void take_mode(const BirefringentOptics& medium, Ray& ray, core::Rng& rng);
 
 /// Draws direction and polarisation of light from dipoles of random orientation. Per solid angle of wave
 /// normals the emission into a mode is proportional to the density of states, n^2 n_g, and to the square of
-/// the field of a photon, 1 / (E.D) for a unit vector E, of which the product is n_g / cos^2 of the angle
-/// between ray and normal.
+/// the field of a photon, n / (n_g E.D) for a unit vector E: their product is n / cos^2 of the angle between
+/// ray and normal.
 void emit_isotropic(const BirefringentOptics& medium, Ray& ray, core::Rng& rng);
 
 /// Rayleigh scattering: as emit_isotropic, with the square of the cosine between the fields before and after.

@@ -212,6 +212,12 @@ bool Surface::birefringent() const {
                      [](const SurfaceShare& part) { return part.surface->birefringent(); });
 }
 
+bool Surface::has_reflector() const {
+  if (mixture.empty()) return reflector.has_value();
+  return std::any_of(mixture.begin(), mixture.end(),
+                     [](const SurfaceShare& part) { return part.surface->has_reflector(); });
+}
+
 bool Surface::opaque() const {
   if (!mixture.empty())
     return std::all_of(mixture.begin(), mixture.end(),

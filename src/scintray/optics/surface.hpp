@@ -106,6 +106,8 @@ struct Surface : SurfaceStack {
   }
   /// True when the surface is exact next to a birefringent medium (MicrosurfaceModel::birefringent).
   bool birefringent() const;
+  /// True when a part of its area has a reflector.
+  bool has_reflector() const;
   /// Why light does not pass the surface along every path as it would in the opposite direction
   /// (MicrosurfaceModel::reciprocal); empty: it does.
   std::string why_not_reciprocal() const;

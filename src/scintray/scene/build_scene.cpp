@@ -72,13 +72,20 @@ class AssemblyMaker {
     const std::shared_ptr<const optics::Birefringence> birefringence =
         assembly_.media[id].medium().birefringence;
     if (!birefringence) {
-      if (placed.principal_axes)
+      if (placed.principal_axes && !unknown_media_.contains(placed.medium.name))
         problems_.add(placed.where,
                       "the part \"" + placed.name + "\" has principal axes, but its medium \"" +
-                          placed.medium.name + "\" has one refractive index",
+                          placed.medium.name + "\" has " +
+                          (assembly_.media[id].is_opaque() ? "none" : "one refractive index"),
                       "leave out principal_axes, or give the medium [index.y] and [index.z]");
       return id;
     }
+    if (placed.principal_axes && !placed.principal_x_given &&
+        !optics::alike(birefringence->axes[0], birefringence->axes[1]))
+      problems_.add(placed.where,
+                    "principal_axes of the part \"" + placed.name + "\" states z alone, but its medium \"" +
+                        placed.medium.name + "\" differs along x and y",
+                    "state x as well, as principal_axes = { z = [0, 0, 1], x = [1, 0, 0] }");
     if (!placed.principal_axes && along_part_.insert(placed.medium.name).second)
       warnings.push_back("the principal axes of the birefringent medium \"" + placed.medium.name +
                          "\" are taken along x, y and z of the part \"" + placed.name +
@@ -108,6 +115,7 @@ class AssemblyMaker {
     try {
       medium = database_.medium(ref.name, ref.where);
     } catch (const core::InputError& error) {
+      unknown_media_.insert(ref.name);
       problems_.add(error);
     }
     return known->second = add_medium(std::move(medium), ref.where);
@@ -199,6 +207,9 @@ class AssemblyMaker {
                     "the sensor \"" + placed.name + "\" has a photocathode, but no medium behind it",
                     "give it the vacuum of the tube, as medium = \"vacuum\", and place its window as a part "
                     "before it; or give the sensor to the back face of the window");
+    if (placed.medium.empty() && placed.principal_axes)
+      problems_.add(placed.where, "the sensor \"" + placed.name + "\" has principal axes, but no medium",
+                    "leave out principal_axes, or give the birefringent medium of its window");
     part.medium = placed.medium.empty() && part.sensor.has_value()
                       ? window_medium(assembly_.sensors[part.sensor])
                       : medium_of(placed, warnings);
@@ -280,7 +291,9 @@ class AssemblyMaker {
     warnings.insert(warnings.end(), made.warnings.begin(), made.warnings.end());
     for (const core::MediumId side : {inside, outside}) {
       const optics::Medium& medium = assembly_.media[side].medium();
-      if (!medium.birefringence || made.surface.birefringent()) continue;
+      // A sheet in contact with the medium behind it mirrors rays, and refracts, by one index.
+      const bool by_sheet = side == outside && made.surface.has_reflector();
+      if (!medium.birefringence || (made.surface.birefringent() && !by_sheet)) continue;
       if (by_mean_index_.insert(name + '\n' + medium.name).second)
         warnings.push_back(
             fmt::format("surface \"{}\" has the mean refractive index, {:.4g}, of the birefringent medium "
@@ -301,6 +314,7 @@ class AssemblyMaker {
   std::map<std::string, core::MediumId> media_;
   std::map<std::string, core::SensorId> sensors_;
   std::map<std::string, materials::SurfaceSpec> surfaces_;
+  std::set<std::string> unknown_media_;  ///< with problems of their own
   std::set<std::string> leaking_;        ///< surfaces of opaque sheets that were reported
   std::set<std::string> by_mean_index_;  ///< surface and birefringent medium of a warning
   std::set<std::string> along_part_;     ///< birefringent media whose axes' directions a warning states

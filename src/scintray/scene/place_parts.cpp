@@ -95,6 +95,7 @@ class PartPlacer {
     result.where = part.where;
     result.medium = part.medium;
     result.principal_axes = part.principal_axes;
+    result.principal_x_given = part.principal_x_given;
     result.sensor = part.sensor;
     result.surface = part.surface;
     result.priority = part.priority;

@@ -142,8 +142,8 @@ std::vector<FaceRuleSpec> read_faces(const config::TomlTable& part) {
 namespace {
 
 /// principal_axes = { z = [...], x = [...] }: two perpendicular axes, or z alone, the optic axis of a
-/// uniaxial medium, for which x is drawn by no rule that matters.
-std::optional<Eigen::Matrix3d> read_principal_axes(const config::TomlTable& part) {
+/// uniaxial medium; x is then any direction across it.
+std::optional<Eigen::Matrix3d> read_principal_axes(const config::TomlTable& part, bool& x_given) {
   const std::optional<config::TomlTable> table = part.optional_table("principal_axes");
   if (!table) return std::nullopt;
   const std::optional<core::Vec3> x = table->optional_direction("x"), z = table->optional_direction("z");
@@ -153,6 +153,7 @@ std::optional<Eigen::Matrix3d> read_principal_axes(const config::TomlTable& part
         "give the direction of the medium's principal axis z in the part's frame, as z = [0, 0, 1], and "
         "where all three indices differ that of x as well");
   if (!z || (table->has("x") && !x)) return std::nullopt;
+  x_given = x.has_value();
   const core::Frame about = core::Frame::about(*z);
   constexpr double kPerpendicular = 1e-6;
   table->expect("x", !x || std::abs(x->dot(*z)) < kPerpendicular,
@@ -171,7 +172,7 @@ void read_body(const config::TomlTable& table, PartSpec& part) {
   part.sensor = read_name(table, "sensor", false);
   part.medium = read_name(table, "medium", !table.has("sensor"));
   part.surface = read_name(table, "surface", false);
-  part.principal_axes = read_principal_axes(table);
+  part.principal_axes = read_principal_axes(table, part.principal_x_given);
   part.priority = static_cast<int>(table.integer("priority", 0));
   table.expect("priority", std::abs(table.integer("priority", 0)) <= kHighestPriority,
                "a priority beyond " + std::to_string(kHighestPriority), "give a smaller number");

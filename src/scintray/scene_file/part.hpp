@@ -69,6 +69,7 @@ struct PartSpec {
   /// Directions of the principal axes x, y, z of a birefringent medium in the part's own frame, in columns;
   /// nothing: along the axes of that frame.
   std::optional<Eigen::Matrix3d> principal_axes;
+  bool principal_x_given = false;  ///< else x and y are any directions across z
   int priority = 0;  ///< of two overlapping parts the one with the higher priority keeps the volume
   std::vector<FaceRuleSpec> faces;
   bool liquid = false;  ///< glue or filler of a builder: its faces need no surface, they are smooth

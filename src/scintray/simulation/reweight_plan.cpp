@@ -33,6 +33,11 @@ class Targets {
   }
 
  private:
+  bool is_medium(const std::string& name) const {
+    const std::vector<std::string>& media = run_.header.media.values();
+    return std::find(media.begin(), media.end(), name) != media.end();
+  }
+
   std::vector<std::size_t> medium(const std::string& name) const {
     if (const auto& gaps = columns_.gap_media; std::find(gaps.begin(), gaps.end(), name) != gaps.end())
       throw refused(path_,
@@ -40,6 +45,11 @@ class Targets {
                         "\" also fills the gap of a surface, where paths of photons are not recorded",
                     "run the scene again with the other absorption length");
     const auto known = std::find(columns_.media.begin(), columns_.media.end(), name);
+    if (known == columns_.media.end() && is_medium(name))
+      throw refused(path_,
+                    "the absorption along the paths of photons in the medium \"" + name +
+                        "\" is not recorded: it is opaque, or birefringent",
+                    "run the scene again with the other absorption length");
     if (known == columns_.media.end())
       throw core::unknown_name({path_.string()}, "medium that light was in", name, columns_.media);
     return {static_cast<std::size_t>(known - columns_.media.begin())};

@@ -28,7 +28,7 @@ struct CommonRange {
       high = std::min(high, curve.x().back());
     }
   }
-  bool empty() const { return low > high; }
+  bool empty() const { return low >= high; }
   bool contains(double wavelength_nm) const { return wavelength_nm >= low && wavelength_nm <= high; }
 };
 
@@ -83,11 +83,15 @@ void read_birefringence(const config::TomlTable& index, const config::TomlTable&
         "light has in the medium");
   if (!by_index) return;
   const char* const key = index.has("z") ? "z" : "y";
+  // Equal indices are where a sweep of a birefringence begins; polarisations have nothing to be defined by
+  // there.
   const bool all_same =
       same(axes->axes[0].index, axes->axes[1].index) && same(axes->axes[0].index, axes->axes[2].index);
-  index.expect(
-      key, !all_same, "a birefringent medium whose indices are all the same",
-      "[index] is along the principal axis x; give [index.y] and [index.z] their own, or leave them out");
+  if (all_same && by_absorption)
+    absorption.report(
+        absorption.has("y") ? "y" : "z",
+        "an absorption that depends on the polarisation, in a medium whose indices are all the same",
+        "give the axes different indices: they decide which polarisations light has in the medium");
   const bool indices_meet = !CommonRange(indices_of(*axes)).empty();
   const bool absorptions_meet = !CommonRange(absorptions_of(*axes)).empty();
   index.expect(key, indices_meet, "the indices of the principal axes have no wavelengths in common",
