@@ -43,7 +43,7 @@ scattering = {{ none = true }}
 
 /// What arrives behind a plate without reflection at its back.
 struct Behind {
-  double photons = 0, ordinary = 0, extraordinary = 0, absorbed = 0;
+  std::uint64_t photons = 0, ordinary = 0, extraordinary = 0, absorbed = 0;
   Moments ordinary_ns, extraordinary_ns;
   std::uint64_t astray = 0;  ///< photons at neither of the two places
 };
@@ -88,20 +88,17 @@ const double kTanWalkOff = (kOrdinary2 - kExtraordinary2) / (kOrdinary2 + kExtra
 
 double through_two_faces(double n) { return std::pow(4.0 * n / ((1.0 + n) * (1.0 + n)), 2); }
 
-Estimate share(double count, double photons) {
-  const double p = count / photons;
-  return {p, std::sqrt(p * (1.0 - p) / photons)};
-}
-
 }  // namespace
 
 TEST_CASE("Birefringent plate: two rays, by Malus's law, at the splitting angle, each with its delay") {
   for (const double azimuth : {0.0, 0.5, 1.2}) {
     const Behind behind = trace_plate(plate(azimuth), -5.0 * kTanWalkOff);
     CHECK(behind.astray == 0);
-    check_law(fmt::format("ordinary, azimuth {}", azimuth), share(behind.ordinary, behind.photons),
+    check_law(fmt::format("ordinary, azimuth {}", azimuth),
+              binomial_estimate(behind.ordinary, behind.photons),
               {through_two_faces(kOrdinary) * std::pow(std::sin(azimuth), 2), 0.0});
-    check_law(fmt::format("extraordinary, azimuth {}", azimuth), share(behind.extraordinary, behind.photons),
+    check_law(fmt::format("extraordinary, azimuth {}", azimuth),
+              binomial_estimate(behind.extraordinary, behind.photons),
               {through_two_faces(kIndexAt45) * std::pow(std::cos(azimuth), 2), 0.0});
     if (azimuth > 0.0)
       CHECK(behind.ordinary_ns.mean().value ==
@@ -118,13 +115,13 @@ TEST_CASE("Dichroic plate: each ray is attenuated with the coefficient of its fi
       plate(0.7, fmt::format("{{ coefficient = \"{} 1/mm\", z = {{ coefficient = \"{} 1/mm\" }} }}", along_x,
                              along_z)),
       -5.0 * kTanWalkOff);
-  check_law("ordinary", share(behind.ordinary, behind.photons),
+  check_law("ordinary", binomial_estimate(behind.ordinary, behind.photons),
             {through_two_faces(kOrdinary) * std::pow(std::sin(0.7), 2) * std::exp(-5.0 * along_x), 0.0});
   // A wave of imaginary index: 1 / n^2 = cos^2 / n_o^2 + sin^2 / n_e^2 with complex n_o and n_e, to first
   // order.
   const double per_mm = 0.5 * std::pow(kIndexAt45, 3) *
                         (along_x / std::pow(kOrdinary, 3) + along_z / std::pow(kExtraordinary, 3));
-  check_law("extraordinary", share(behind.extraordinary, behind.photons),
+  check_law("extraordinary", binomial_estimate(behind.extraordinary, behind.photons),
             {through_two_faces(kIndexAt45) * std::pow(std::cos(0.7), 2) * std::exp(-5.0 * per_mm), 0.0});
 }
 
@@ -168,16 +165,16 @@ scattering = {{ length = "5 mm", kind = "isotropic" }}
 )",
                           start, host, host_per_mm, no, ne, crystal_per_mm / no, crystal_per_mm / ne));
     const scene::Scene& scene = traced.built.scene;
-    double elsewhere = 0.0, all = 0.0;
+    std::uint64_t elsewhere = 0, all = 0;
     const std::string other = start == "host" ? "crystal" : "host";
     for (const scene::Region& region : scene.regions) {
       if (!region.part.has_value()) continue;
-      const double count = static_cast<double>(traced.result.absorbed_in_medium[region.medium]);
+      const std::uint64_t count = traced.result.absorbed_in_medium[region.medium];
       all += count;
       if (scene.parts[region.part].name == other) elsewhere += count;
     }
     CHECK(all == 100'000);
-    return share(elsewhere, 100'000);
+    return binomial_estimate(elsewhere, 100'000);
   };
   // What the crystal emits: n / cos^2 for each of its waves, over the sphere, cos that of the angle between
   // ray and wave normal; in the plane of the optic axis E = D / n_i^2.

@@ -249,7 +249,7 @@ std::array<LeavingWave, 2> waves_in(const Matrix3d& e, double q, double sign) {
 class FaceWaves {
  public:
   FaceWaves(const Ray& ray, const Vec3& m, const FaceMedium& here, const FaceMedium& behind)
-      : media_{here, behind}, frame_(wave_vector(ray, here), m) {
+      : media_{here, behind}, wave_vector_(wave_vector(ray, here)), frame_(wave_vector_, m) {
     for (std::size_t side = 0; side < 2; ++side) {
       const double sign = side == 0 ? -1.0 : 1.0;
       const BirefringentOptics* crystal = media_[side].birefringent;
@@ -319,12 +319,13 @@ class FaceWaves {
       return components.s * towards[0].field + components.p * towards[1].field;
     }
     const Vec3 electric = frame_.to_face(ray.polarisation.vec());
-    const Vec3 magnetic = frame_.to_face(wave_vector(ray, here)).cross(electric);
+    const Vec3 magnetic = frame_.to_face(wave_vector_).cross(electric);
     field << electric.x(), electric.y(), magnetic.x(), magnetic.y();
     return field;
   }
 
   std::array<FaceMedium, 2> media_;  ///< of incidence, and behind the face
+  Vec3 wave_vector_;                 ///< of the incident wave
   FaceFrame frame_;
   std::array<std::array<LeavingWave, 2>, 2> waves_;
   std::array<Complex, 4> amplitude_;
