@@ -1,6 +1,6 @@
 """Every command of the pages that a user follows is run, page by page in a folder of its own: blocks of sh line by line;
-blocks of TOML
-whose first line is "# NAME.toml" are written as that file; cp takes an installed file. Photons and events are few here."""
+blocks of TOML whose first line is "# NAME.toml" are written as that file; cp takes an installed file. Photons and events
+are few here."""
 
 import os
 import re
