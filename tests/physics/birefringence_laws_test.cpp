@@ -132,7 +132,7 @@ TEST_CASE(
   // in equilibrium, is the share the other way times what the crystal emits, whatever the surfaces and
   // scattering.
   const double no = 1.4, ne = 2.4, host = 1.3, crystal_per_mm = 0.02, host_per_mm = 0.01;
-  const auto absorbed_elsewhere = [&](const std::string& start) {
+  const auto absorbed_elsewhere = [&](const std::string& start, const std::string& kind) {
     const Traced traced =
         trace(fmt::format(R"(
 ambient = "vacuum_n1"
@@ -161,9 +161,9 @@ scattering = {{ length = "10 mm", kind = "rayleigh" }}
 [media.crystal]
 index = {{ n = {}, z = {{ n = {} }} }}
 absorption = {{ coefficient = "{} 1/mm", z = {{ coefficient = "{} 1/mm" }} }}
-scattering = {{ length = "5 mm", kind = "isotropic" }}
+scattering = {{ length = "2 mm", kind = "{}" }}
 )",
-                          start, host, host_per_mm, no, ne, crystal_per_mm / no, crystal_per_mm / ne));
+                          start, host, host_per_mm, no, ne, crystal_per_mm / no, crystal_per_mm / ne, kind));
     const scene::Scene& scene = traced.built.scene;
     std::uint64_t elsewhere = 0, all = 0;
     const std::string other = start == "host" ? "crystal" : "host";
@@ -189,8 +189,13 @@ scattering = {{ length = "5 mm", kind = "isotropic" }}
   const double crystal_mm3 = 9.0 * 8.0 * 8.0, host_mm3 = 16.0 * 16.0 * 16.0 - crystal_mm3;
   const double emitted = crystal_mm3 * crystal * crystal_per_mm,
                emitted_by_host = host_mm3 * 2.0 * host * host * host_per_mm;
-  const Estimate to_crystal = absorbed_elsewhere("host"), to_host = absorbed_elsewhere("crystal");
-  const double ratio = to_crystal.value / to_host.value;
-  const double error = ratio * std::hypot(to_crystal.error / to_crystal.value, to_host.error / to_host.value);
-  check_law("share into the crystal over share out of it", {ratio, error}, {emitted / emitted_by_host, 0.0});
+  for (const std::string kind : {"isotropic", "rayleigh"}) {
+    const Estimate to_crystal = absorbed_elsewhere("host", kind),
+                   to_host = absorbed_elsewhere("crystal", kind);
+    const double ratio = to_crystal.value / to_host.value;
+    const double error =
+        ratio * std::hypot(to_crystal.error / to_crystal.value, to_host.error / to_host.value);
+    check_law(kind + " scattering: share into the crystal over share out of it", {ratio, error},
+              {emitted / emitted_by_host, 0.0});
+  }
 }

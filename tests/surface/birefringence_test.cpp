@@ -1,6 +1,7 @@
 /// Light in birefringent media, against closed forms.
 
 #include "scintray/optics/birefringence.hpp"
+#include "scintray/optics/birefringent_faces.hpp"
 
 #include <doctest/doctest.h>
 
@@ -315,6 +316,79 @@ TEST_CASE("Isotropic emission: modes with their density of states") {
   const double mean = u2 / extraordinary,
                spread = std::sqrt((u4 / extraordinary - mean * mean) / extraordinary);
   CHECK(std::abs(mean - mean_square) < 4.0 * spread);
+}
+
+TEST_CASE("Dipoles along the principal axes radiate as emission along their field") {
+  // Of a uniaxial crystal: 4 n_o^2 / (n_e^2 + 3 n_o^2) along the axis, relative to across it. The axis is x.
+  BirefringentOptics uniaxial = turned_crystal({kExtraordinary, kOrdinary, kOrdinary});
+  uniaxial.find_dipole_emission();
+  const double o2 = kOrdinary * kOrdinary, e2 = kExtraordinary * kExtraordinary;
+  const std::array<double, 3>& power = uniaxial.dipole_emission;
+  CHECK(power[0] / power[1] == doctest::Approx(4.0 * o2 / (e2 + 3.0 * o2)).epsilon(1e-5));
+  CHECK(power[2] == doctest::Approx(power[1]).epsilon(1e-5));
+  // Of a biaxial one: the mean square of the components of the field of isotropic emission.
+  core::Rng rng(11, core::StreamKind::photon, 0);
+  BirefringentOptics biaxial = turned_crystal({1.5, 1.9, 2.3}, &rng);
+  biaxial.find_dipole_emission();
+  constexpr int kPhotons = 200'000;
+  Vec3 sum = Vec3::Zero(), squares = Vec3::Zero();
+  for (int i = 0; i < kPhotons; ++i) {
+    Ray ray;
+    emit_isotropic(biaxial, ray, rng);
+    const Vec3 part = 3.0 * (biaxial.directions.matrix().transpose() * ray.polarisation.vec()).cwiseAbs2();
+    sum += part;
+    squares += part.cwiseAbs2();
+    const ModeOptics mode = mode_of(biaxial, ray);
+    const std::array<double, 3>& of_axis = biaxial.dipole_emission;
+    CHECK(mode.rayleigh_rate / mode.dipole_rate ==
+          doctest::Approx((of_axis[0] * part[0] + of_axis[1] * part[1] + of_axis[2] * part[2]) / 3.0));
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    const double mean = sum[axis] / kPhotons;
+    const double error = std::sqrt((squares[axis] / kPhotons - mean * mean) / kPhotons);
+    CHECK(std::abs(mean - biaxial.dipole_emission[static_cast<std::size_t>(axis)]) < 4.0 * error);
+  }
+}
+
+TEST_CASE("Rayleigh scattering keeps light in equilibrium: the path in each mode is that of emission") {
+  core::Rng rng(12, core::StreamKind::photon, 0);
+  BirefringentOptics crystal = turned_crystal({1.5, 1.9, 2.3}, &rng);
+  crystal.find_dipole_emission();
+  // Mean square of the fields' components over paths: of one ray that is scattered again and again, with the
+  // mean path between scatterings in its mode, and of rays as emitted, whose occupation is the emission over
+  // the rate at which dipoles of random orientation scatter. In batches, as scattering remembers the field.
+  constexpr int kBatches = 200, kOfBatch = 2000;
+  const auto mean_squares = [&](auto next) {
+    Vec3 sum = Vec3::Zero(), squares = Vec3::Zero();
+    for (int batch = 0; batch < kBatches; ++batch) {
+      Vec3 fields = Vec3::Zero();
+      double paths = 0.0;
+      for (int i = 0; i < kOfBatch; ++i) {
+        Ray ray;
+        const double path = next(ray);
+        fields += path * (crystal.directions.matrix().transpose() * ray.polarisation.vec()).cwiseAbs2();
+        paths += path;
+      }
+      sum += fields / paths;
+      squares += (fields / paths).cwiseAbs2();
+    }
+    const Vec3 mean = sum / kBatches;
+    return std::pair(mean, Vec3(((squares / kBatches - mean.cwiseAbs2()) / (kBatches - 1.0)).cwiseSqrt()));
+  };
+  Ray last;
+  emit_isotropic(crystal, last, rng);
+  const auto [scattered, scattered_error] = mean_squares([&](Ray& ray) {
+    scatter_rayleigh(crystal, last, rng);
+    ray = last;
+    return 1.0 / mode_of(crystal, ray).rayleigh_rate;
+  });
+  const auto [emitted, emitted_error] = mean_squares([&](Ray& ray) {
+    emit_isotropic(crystal, ray, rng);
+    return 1.0 / mode_of(crystal, ray).dipole_rate;
+  });
+  for (int axis = 0; axis < 3; ++axis)
+    CHECK(std::abs(scattered[axis] - emitted[axis]) <
+          4.0 * std::hypot(scattered_error[axis], emitted_error[axis]));
 }
 
 TEST_CASE("Isotropic emission does not depend on the group index") {

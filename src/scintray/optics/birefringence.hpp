@@ -11,8 +11,7 @@
 /// field do not interfere with each other afterwards. That holds where their retardation is many wavelengths
 /// over the spectrum of the light, as in crystals of millimetres, and not in wave plates.
 ///
-/// Equations: Maxwell's, for plane waves (P. Yeh 1979, J. Opt. Soc. Am. 69, 742, and D. W. Berreman 1972, J.
-/// Opt. Soc. Am. 62, 502, have them in this form; both cited from memory, not opened).
+/// Equations: Maxwell's, for plane waves; those of faces are in birefringent_faces.hpp.
 /// tests/surface/birefringence_test.cpp checks them against closed forms.
 
 #include <array>
@@ -47,18 +46,19 @@ struct BirefringentOptics {
   std::array<double, 3> index, group_index, absorption_per_mm;  ///< of the principal axes
   core::PlainMatrix3 directions;                                ///< of the axes, in columns; world
   core::PlainMatrix3 permittivity;                              ///< relative; world
+  /// Power that a dipole along each of the principal axes radiates, relative to their mean: all 1 until
+  /// find_dipole_emission.
+  std::array<double, 3> dipole_emission{1.0, 1.0, 1.0};
 
   BirefringentOptics(const Birefringence& medium, double wavelength_nm);
   /// The same with directions in a frame.
   BirefringentOptics in_frame(const core::Frame& frame) const;
+  /// Sets `dipole_emission`, the integral over all waves of emission (emit_isotropic) times the squares of
+  /// the components of their fields, within 1e-5. For a uniaxial crystal a dipole along the optic axis
+  /// radiates 4 n_o^2 / (n_e^2 + 3 n_o^2) times as much as one across it, to which the integral comes.
+  void find_dipole_emission();
 };
 static_assert(std::is_trivially_copyable_v<BirefringentOptics>);
-
-/// A medium at a face: of one index, or birefringent, where `index` is not used.
-struct FaceMedium {
-  double index = 1.0;
-  const BirefringentOptics* birefringent = nullptr;
-};
 
 /// Numbers of the mode of a ray in a birefringent medium.
 struct ModeOptics {
@@ -69,6 +69,8 @@ struct ModeOptics {
   /// Rate per path at which dipoles of random orientation scatter it, relative: the square of its field over
   /// the flux of energy, 1 / (n cos) with the angle between ray and normal.
   double dipole_rate = 1.0;
+  /// The same of dipoles along its field, as in Rayleigh scattering: times the power that they radiate.
+  double rayleigh_rate = 1.0;
 };
 
 /// The mode of a ray that has one (take_mode).
@@ -88,21 +90,7 @@ void take_mode(const BirefringentOptics& medium, Ray& ray, core::Rng& rng);
 void emit_isotropic(const BirefringentOptics& medium, Ray& ray, core::Rng& rng);
 
 /// Rayleigh scattering: as emit_isotropic, with the square of the cosine between the fields before and after.
+/// With ModeOptics::rayleigh_rate each way is as frequent as its reverse.
 void scatter_rayleigh(const BirefringentOptics& medium, Ray& ray, core::Rng& rng);
-
-/// As interact_at_facet(ray, m, n1, n2, rng), where at least one of the two media is birefringent: the ray
-/// leaves in one of the modes of the reflected or the transmitted light, with the share of each in the power.
-/// The fields are matched without approximation, evanescent ones included.
-///
-/// @param m  unit normal opposed to the ray
-/// @return true when the ray was refracted into `behind`
-[[gnu::noinline, gnu::cold]] bool interact_at_birefringent(Ray& ray, const core::Vec3& m,
-                                                           const FaceMedium& here, const FaceMedium& behind,
-                                                           core::Rng& rng);
-
-/// Shares of the power of what leaves a face, of light of the power 1: two reflected modes, then two
-/// transmitted ones (in a medium of one index: polarised across and in the plane of incidence).
-std::array<double, 4> power_shares(const Ray& ray, const core::Vec3& m, const FaceMedium& here,
-                                   const FaceMedium& behind);
 
 }  // namespace scintray::optics

@@ -10,7 +10,7 @@
 
 #include "scintray/core/sampling.hpp"
 #include "scintray/core/shared.hpp"
-#include "scintray/optics/birefringence.hpp"
+#include "scintray/optics/birefringent_faces.hpp"
 #include "scintray/optics/fresnel.hpp"
 
 namespace scintray::optics {

@@ -39,8 +39,12 @@ void SceneOptics::add(const SceneMedium& scene_medium, double low_nm, double hig
   record.first_shift = static_cast<std::uint32_t>(shifting_per_mm.size());
   record.birefringent = medium.birefringence != nullptr;
   record.first_birefringent = static_cast<std::uint32_t>(birefringent.size());
+  const bool scatters = medium.scattering_per_mm.max_y() > 0.0;
   const auto tabulate = [&](double wavelength_nm) {
-    if (record.birefringent) birefringent.emplace_back(*medium.birefringence, wavelength_nm);
+    if (record.birefringent) {
+      optics::BirefringentOptics& optics = birefringent.emplace_back(*medium.birefringence, wavelength_nm);
+      if (scatters && record.scattering == optics::ScatteringKind::rayleigh) optics.find_dipole_emission();
+    }
     table.push_back(medium.at(wavelength_nm));
     if (record.shifts) shifting_per_mm.push_back(medium.shifter->absorption_per_mm()(wavelength_nm));
   };

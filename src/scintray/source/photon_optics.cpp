@@ -15,7 +15,9 @@ void set_mode_optics(const scene::Scene& scene, const optics::BirefringentOptics
   photon.optics.group_index = mode.group_index;
   // The scattering coefficient of the medium is that of its mean index.
   const optics::MediumOptics mean = scene.optics.at(id, photon.wavelength_nm);
-  photon.optics.scattering_per_mm = mean.scattering_per_mm * mode.dipole_rate * mean.index;
+  const bool rayleigh = scene.optics.media[id].scattering == optics::ScatteringKind::rayleigh;
+  photon.optics.scattering_per_mm =
+      mean.scattering_per_mm * mean.index * (rayleigh ? mode.rayleigh_rate : mode.dipole_rate);
   photon.optics.absorption_per_mm =
       mode.absorption_per_mm +
       (scene.optics.media[id].shifts ? scene.optics.shifting_at(id, photon.wavelength_nm) : 0.0);
