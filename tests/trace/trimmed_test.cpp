@@ -438,3 +438,62 @@ TEST_CASE("Total reflections round a bend and in a bore keep to the walls over 2
     CHECK(std::abs(std::abs(photon.ray.direction.z()) - std::abs(along)) < 1e-8);
   }
 }
+
+namespace {
+
+/// A face of one cell whose many trims are holes in a box of 40 x 40 mm2.
+TrimmedFace face_with_holes(ExactBodies& exact, bool flat) {
+  const auto add = [&](const Trim& trim) { exact.trims.push_back(trim); };
+  const auto hole = [&](const mesh::SupportSurface& surface) {
+    add({Vec3(Vec3::Zero()), 0.0, static_cast<std::uint32_t>(exact.trim_surfaces.size()), true});
+    exact.trim_surfaces.push_back(surface);
+  };
+  for (const Vec3& side : {Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 1, 0), Vec3(0, -1, 0)})
+    add({side, 20.0, kNoSurface, false});
+  for (int i = 0; i < 16; ++i)
+    hole(mesh::SupportSurface::cylinder({-15.0 + 10.0 * (i / 4), -15.0 + 10.0 * (i % 4), 0.0},
+                                        Vec3(0.0, 0.1 * i, 1.0), 1.0 + 0.1 * i));
+  hole(mesh::SupportSurface::sphere({0.0, 0.0, 1.0}, 2.0));
+  hole(mesh::SupportSurface::cone({10.0, 0.0, 0.0}, Vec3::UnitX(), 1.0, 3.0, 8.0));
+  hole(mesh::SupportSurface::torus({-10.0, 0.0, 0.0}, Vec3::UnitZ(), 2.0, 0.5));
+  TrimmedFace face;
+  face.low = Vec3(-20.0, -20.0, flat ? 2.0 : -3.0);
+  face.high = Vec3(20.0, 20.0, flat ? 2.0 : 3.0);
+  face.trims_end = static_cast<std::uint32_t>(exact.trims.size());
+  return face;
+}
+
+}  // namespace
+
+TEST_CASE("The grid of a face with many trims answers as they do") {
+  for (const bool flat : {true, false}) {
+    CAPTURE(flat);
+    ExactBodies exact;
+    TrimmedFace face = face_with_holes(exact, flat);
+    const TrimmedFace without = face;
+    exact.build_trim_grid(face);
+    REQUIRE(face.grid != kNoSurface);
+    // Few are left to ask, and some boxes are beyond the face.
+    const double asked = static_cast<double>(exact.asked_trims.size()), boxes = exact.trim_boxes.size();
+    CHECK(asked < 3.0 * boxes);
+    CHECK(std::any_of(exact.trim_boxes.begin(), exact.trim_boxes.end(),
+                      [](const TrimBox& box) { return box.begin == kNoSurface; }));
+    Rng rng(21, StreamKind::photon, 0);
+    int within = 0, different = 0;
+    for (int i = 0; i < 200'000; ++i) {
+      Vec3 point(42.0 * rng.uniform() - 21.0, 42.0 * rng.uniform() - 21.0,
+                 flat ? 2.0 : 6.2 * rng.uniform() - 3.1);
+      if (i % 2 == 0) {  // next to the edge of a hole
+        const mesh::SupportSurface& surface = exact.trim_surfaces[static_cast<std::size_t>(i / 2) % 19];
+        for (int step = 0; step < 3; ++step) point += surface.correction(point);
+        point += 1e-9 * core::sample_isotropic(rng);
+      }
+      const bool expected = exact.is_within(without, point);
+      within += expected;
+      different += exact.is_within(face, point) != expected;
+    }
+    CHECK(different == 0);
+    CHECK(within > 50'000);
+    CHECK(within < 180'000);
+  }
+}

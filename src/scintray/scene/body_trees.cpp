@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include "scintray/scene/exact_bodies.hpp"
@@ -62,10 +64,88 @@ void ExactBodies::build_face_tree(ExactBody& body) {
   if (body.faces_end - body.faces_begin <= kFew) return;
   const auto begin = static_cast<std::uint32_t>(faces_in_leaves.size());
   for (std::uint32_t i = body.faces_begin; i < body.faces_end; ++i) faces_in_leaves.push_back(i);
+  const auto box_of = [&](std::uint32_t i) { return Box(faces[i].low.vec(), faces[i].high.vec()); };
+  const auto size_of = [](const Box& box) {
+    const core::Vec3 side = box.sizes();
+    return side.x() * side.y() + side.y() * side.z() + side.z() * side.x();
+  };
+  // Nearly every ray reaches the box of such a face, which would make every box of the tree as large.
+  constexpr double kLarge = 0.05;
+  const double least = kLarge * size_of(Box(body.low.vec(), body.high.vec()));
+  const auto other = std::stable_partition(faces_in_leaves.begin() + begin, faces_in_leaves.end(),
+                                           [&](std::uint32_t i) { return size_of(box_of(i)) >= least; });
+  body.large_begin = begin;
+  body.large_end = static_cast<std::uint32_t>(other - faces_in_leaves.begin());
+  if (other == faces_in_leaves.end()) return;
   body.root = static_cast<std::uint32_t>(face_nodes.size());
-  TreeBuilder(face_nodes, faces_in_leaves, [&](std::uint32_t i) {
-    return Box(faces[i].low.vec(), faces[i].high.vec());
-  }).add(begin, static_cast<std::uint32_t>(faces_in_leaves.size()));
+  TreeBuilder(face_nodes, faces_in_leaves, box_of)
+      .add(body.large_end, static_cast<std::uint32_t>(faces_in_leaves.size()));
+}
+
+namespace {
+
+/// Division of a box into boxes that are about as long as wide.
+TrimGrid divided(const Box& box, std::size_t wanted) {
+  TrimGrid grid;
+  grid.low = box.min();
+  constexpr double kFiner = 0.9;
+  for (double side = box.sizes().maxCoeff();; side *= kFiner) {
+    std::size_t all = 1;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double count = std::ceil(box.sizes()[axis] / side);
+      grid.count[static_cast<std::size_t>(axis)] = static_cast<std::uint32_t>(count);
+      grid.per_mm[axis] = count / box.sizes()[axis];
+      all *= static_cast<std::size_t>(count);
+    }
+    if (all >= wanted) return grid;
+  }
+}
+
+}  // namespace
+
+void ExactBodies::build_trim_grid(TrimmedFace& face) {
+  constexpr std::uint32_t kFew = 8;
+  constexpr std::size_t kBoxesPerTrim = 16, kMostBoxes = 32'768;
+  const std::uint32_t many = face.trims_end - face.trims_begin;
+  if (many <= kFew || face.cells_begin != face.cells_end) return;
+  // Boxes overlap by more than rounding can move a point, and flat faces have some thickness.
+  constexpr double kMargin = 1e-6;
+  const core::Vec3 around = core::Vec3::Constant(kMargin * (face.high.vec() - face.low.vec()).norm());
+  const Box box(face.low.vec() - around, face.high.vec() + around);
+  TrimGrid grid = divided(box, std::min(kBoxesPerTrim * many, kMostBoxes));
+  grid.first = static_cast<std::uint32_t>(trim_boxes.size());
+  const core::Vec3 half = 0.5 * (1.0 + kMargin) * grid.per_mm.vec().cwiseInverse();
+  for (std::uint32_t z = 0; z < grid.count[2]; ++z)
+    for (std::uint32_t y = 0; y < grid.count[1]; ++y)
+      for (std::uint32_t x = 0; x < grid.count[0]; ++x) {
+        const core::Vec3 centre =
+            box.min() + core::Vec3(x + 0.5, y + 0.5, z + 0.5).cwiseQuotient(grid.per_mm.vec());
+        trim_boxes.push_back(trims_to_ask(face, centre, half));
+      }
+  face.grid = static_cast<std::uint32_t>(trim_grids.size());
+  trim_grids.push_back(grid);
+}
+
+TrimBox ExactBodies::trims_to_ask(const TrimmedFace& face, const core::Vec3& centre, const core::Vec3& half) {
+  constexpr double kSafe = 1.0 + 1e-6;
+  TrimBox box;
+  box.begin = static_cast<std::uint32_t>(asked_trims.size());
+  for (std::uint32_t i = face.trims_begin; i < face.trims_end; ++i) {
+    const Trim& trim = trims[i];
+    const double value = value_of(trim, centre);
+    const double change = trim.surface == kNoSurface
+                              ? trim.normal.vec().cwiseAbs().dot(half)
+                              : trim_surfaces[trim.surface].most_change(centre, half.norm());
+    if (!(std::abs(value) > kSafe * change)) {
+      asked_trims.push_back(i);
+    } else if ((value > 0.0) != trim.above) {
+      asked_trims.resize(box.begin);
+      box.begin = kNoSurface;
+      return box;
+    }
+  }
+  box.end = static_cast<std::uint32_t>(asked_trims.size());
+  return box;
 }
 
 }  // namespace scintray::scene

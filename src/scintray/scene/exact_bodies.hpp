@@ -62,6 +62,20 @@ struct Trim {
   bool above = false;                  ///< side on which the face is, where it is one cell
 };
 
+/// Boxes, of equal size, into which that around a face with many trims is divided. In each of them most trims
+/// have one sign all over, so that only the others are asked.
+struct TrimGrid {
+  core::PlainVec3 low, per_mm;           ///< corner of the first box (mm), boxes per mm
+  std::array<std::uint32_t, 3> count{};  ///< boxes by axis
+  std::uint32_t first = 0;               ///< in ExactBodies::trim_boxes; x runs first
+};
+
+/// A box of a TrimGrid.
+struct TrimBox {
+  /// Trims to ask: a range of ExactBodies::asked_trims; kNoSurface: the face is not in this box.
+  std::uint32_t begin = 0, end = 0;
+};
+
 /// A face of a body that is not convex: the cells of its surface, cut by functions of the place, that it
 /// consists of. Its edges are where these functions are zero, exactly.
 struct TrimmedFace {
@@ -72,6 +86,7 @@ struct TrimmedFace {
   /// Of several cells, their signs, sorted: bit k is set above zero of trim k, of 64 at most. Empty: one
   /// cell.
   std::uint32_t cells_begin = 0, cells_end = 0;
+  std::uint32_t grid = kNoSurface;  ///< in ExactBodies::trim_grids, of one cell with many trims
 };
 
 /// A body: the space inside all of its planes and quadrics, where it is convex; else what its faces enclose.
@@ -81,9 +96,12 @@ struct ExactBody {
   std::uint32_t first = kNoSurface;              ///< a triangle of the region's boundary on it
   core::PlainVec3 low, high;                     ///< corners of a box around it, mm
   std::uint32_t faces_begin = 0, faces_end = 0;  ///< where it is not convex
-  std::uint32_t root = kNoSurface;               ///< in ExactBodies::face_nodes, of a body with many faces
-  double rounding_mm = 0.0;                      ///< of positions
-  double off_surface_mm = 0.0;                   ///< largest distance of what touches it from its surfaces
+  /// Of many faces those that are as large as the body, which a ray is compared with before the others: a
+  /// range of ExactBodies::faces_in_leaves.
+  std::uint32_t large_begin = 0, large_end = 0;
+  std::uint32_t root = kNoSurface;  ///< in ExactBodies::face_nodes, of a body with many faces
+  double rounding_mm = 0.0;         ///< of positions
+  double off_surface_mm = 0.0;      ///< largest distance of what touches it from its surfaces
 
   bool is_convex() const { return faces_begin == faces_end; }
 };
@@ -138,10 +156,13 @@ struct ExactBodies {
   std::vector<Trim> trims;                          ///< ranges of TrimmedFace
   std::vector<mesh::SupportSurface> trim_surfaces;  ///< of trims
   std::vector<std::uint64_t> cells;                 ///< ranges of TrimmedFace
-  std::vector<BodyNode> face_nodes;                 ///< a tree for each body with many faces
-  std::vector<std::uint32_t> faces_in_leaves;       ///< numbers of faces: ranges of its BodyNode
-  std::uint32_t meshed = 0;  ///< triangles of the boundary that are on none of the bodies
-  bool held = false;         ///< the first body holds the region
+  std::vector<TrimGrid> trim_grids;
+  std::vector<TrimBox> trim_boxes;             ///< ranges of TrimGrid
+  std::vector<std::uint32_t> asked_trims;      ///< numbers of trims: ranges of TrimBox
+  std::vector<BodyNode> face_nodes;            ///< a tree for each body with many faces
+  std::vector<std::uint32_t> faces_in_leaves;  ///< numbers of faces: ranges of its BodyNode
+  std::uint32_t meshed = 0;                    ///< triangles of the boundary that are on none of the bodies
+  bool held = false;                           ///< the first body holds the region
 
   bool empty() const { return bodies.empty(); }
   /// Builds the tree of the holes, once all bodies are there.
@@ -158,6 +179,8 @@ struct ExactBodies {
   bool alternates(const ExactBody& body, core::Vec3 origin, const core::Vec3& direction) const;
   /// Builds the tree of the faces of a body, where they are many.
   void build_face_tree(ExactBody& body);
+  /// Builds the grid of the trims of a face, where they are many.
+  void build_trim_grid(TrimmedFace& face);
   /// The nearest surface that a ray from inside the region reaches.
   /// @param left  quadric on which the ray starts, known to be a root at 0; kNoSurface: not known
   BodyHit nearest(const core::Vec3& origin, const core::Vec3& direction, std::uint32_t left) const;
@@ -187,6 +210,13 @@ struct ExactBodies {
   template <typename Consider>
   void for_each_crossing(const TrimmedFace& face, const Ray& ray, double low, double high,
                          const Consider& consider) const;
+  double value_of(const Trim& trim, const core::Vec3& point) const {
+    return trim.surface == kNoSurface ? trim.normal.dot(point) - trim.offset
+                                      : trim_surfaces[trim.surface].value(point);
+  }
+  TrimBox trims_to_ask(const TrimmedFace& face, const core::Vec3& centre, const core::Vec3& half);
+  /// The box of a grid with a point in it; null outside of all.
+  const TrimBox* box_at(const TrimGrid& grid, const core::Vec3& point) const;
   void cross_faces(std::uint32_t number, bool outwards, const Ray& ray, BodyHit& nearest) const;
   FaceCrossing nearest_crossing(const ExactBody& body, const Ray& ray, const Wanted& wanted,
                                 double limit) const;
@@ -199,16 +229,15 @@ struct ExactBodies {
 };
 
 /// Whether a ray reaches a box within distances (mm) from `near` to `far`, which become those in the box.
-/// Quotients of 0 by 0, of a ray in a side of the box, count as inside.
+/// Products of 0 and an infinite inverse, of a ray in a side of the box, are no number: they change neither.
 inline bool reaches(const core::PlainVec3& low, const core::PlainVec3& high, const core::Vec3& origin,
                     const core::Vec3& inverse, double& near, double& far) {
   for (int axis = 0; axis < 3; ++axis) {
-    const double a = (low[axis] - origin[axis]) * inverse[axis];
-    const double b = (high[axis] - origin[axis]) * inverse[axis];
-    if (std::isnan(a) || std::isnan(b)) continue;
-    const double first = a < b ? a : b, last = a < b ? b : a;
-    if (first > near) near = first;
-    if (last < far) far = last;
+    const bool backwards = inverse[axis] < 0.0;
+    const double first = ((backwards ? high : low)[axis] - origin[axis]) * inverse[axis];
+    const double last = ((backwards ? low : high)[axis] - origin[axis]) * inverse[axis];
+    near = first > near ? first : near;
+    far = last < far ? last : far;
   }
   return near <= far;
 }

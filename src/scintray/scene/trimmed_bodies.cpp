@@ -6,22 +6,9 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-double trim_value(const ExactBodies& exact, const Trim& trim, const core::Vec3& point) {
-  return trim.surface == kNoSurface ? trim.normal.dot(point) - trim.offset
-                                    : exact.trim_surfaces[trim.surface].value(point);
-}
-
 double distance_from_trim(const ExactBodies& exact, const Trim& trim, const core::Vec3& point) {
   return std::abs(trim.surface == kNoSurface ? trim.normal.dot(point) - trim.offset
                                              : exact.trim_surfaces[trim.surface].distance(point));
-}
-
-/// Signs of the trims of a face of several cells.
-std::uint64_t signs_at(const ExactBodies& exact, const TrimmedFace& face, const core::Vec3& point) {
-  std::uint64_t signs = 0;
-  for (std::uint32_t i = face.trims_begin; i < face.trims_end; ++i)
-    if (trim_value(exact, exact.trims[i], point) > 0.0) signs |= std::uint64_t{1} << (i - face.trims_begin);
-  return signs;
 }
 
 }  // namespace
@@ -30,14 +17,36 @@ const SurfaceTriangles& ExactBodies::triangles_of(const TrimmedFace& face) const
   return face.plane != kNoSurface ? planes[face.plane].on : quadrics[face.quadric].on;
 }
 
+const TrimBox* ExactBodies::box_at(const TrimGrid& grid, const core::Vec3& point) const {
+  std::size_t number = 0;
+  for (int axis = 2; axis >= 0; --axis) {
+    const std::uint32_t count = grid.count[static_cast<std::size_t>(axis)];
+    const double at = (point[axis] - grid.low[axis]) * grid.per_mm[axis];
+    if (!(at >= 0.0 && at < count)) return nullptr;
+    number = number * count + static_cast<std::size_t>(at);
+  }
+  return &trim_boxes[grid.first + number];
+}
+
 bool ExactBodies::is_within(const TrimmedFace& face, const core::Vec3& point) const {
+  const auto is_kept_by = [&](const Trim& trim) { return (value_of(trim, point) > 0.0) == trim.above; };
+  if (face.grid != kNoSurface) {
+    if (const TrimBox* box = box_at(trim_grids[face.grid], point)) {
+      if (box->begin == kNoSurface) return false;
+      for (std::uint32_t i = box->begin; i < box->end; ++i)
+        if (!is_kept_by(trims[asked_trims[i]])) return false;
+      return true;
+    }
+  }
   if (face.cells_begin == face.cells_end) {
     for (std::uint32_t i = face.trims_begin; i < face.trims_end; ++i)
-      if ((trim_value(*this, trims[i], point) > 0.0) != trims[i].above) return false;
+      if (!is_kept_by(trims[i])) return false;
     return true;
   }
-  return std::binary_search(cells.begin() + face.cells_begin, cells.begin() + face.cells_end,
-                            signs_at(*this, face, point));
+  std::uint64_t signs = 0;
+  for (std::uint32_t i = face.trims_begin; i < face.trims_end; ++i)
+    if (value_of(trims[i], point) > 0.0) signs |= std::uint64_t{1} << (i - face.trims_begin);
+  return std::binary_search(cells.begin() + face.cells_begin, cells.begin() + face.cells_end, signs);
 }
 
 double ExactBodies::distance_from_outline(const TrimmedFace& face, const core::Vec3& point) const {
@@ -47,7 +56,7 @@ double ExactBodies::distance_from_outline(const TrimmedFace& face, const core::V
   const auto off_cell = [&](auto is_above) {
     double off = 0.0;
     for (std::uint32_t i = face.trims_begin; i < face.trims_end; ++i)
-      if ((trim_value(*this, trims[i], point) > 0.0) != is_above(i))
+      if ((value_of(trims[i], point) > 0.0) != is_above(i))
         off = std::max(off, distance_from_trim(*this, trims[i], point));
     return off;
   };
@@ -102,7 +111,10 @@ ExactBodies::FaceCrossing ExactBodies::nearest_crossing(const ExactBody& body, c
       cross_face(i, body, ray, wanted, nearest);
     return nearest;
   }
-  std::array<std::uint32_t, 64> waiting{body.root};  // more than the depth of a tree that is cut in halves
+  for (std::uint32_t i = body.large_begin; i < body.large_end; ++i)
+    cross_face(faces_in_leaves[i], body, ray, wanted, nearest);
+  std::array<std::uint32_t, 64> waiting;  // more than the depth of a tree that is cut in halves
+  waiting[0] = body.root;
   std::size_t count = 1;
   while (count > 0) {
     const std::uint32_t at = waiting[--count];

@@ -30,6 +30,7 @@ std::uint32_t add_trimmed_face(const PartFace& face, const RegionFrame& frame, c
   result.cells_begin = static_cast<std::uint32_t>(exact.cells.size());
   exact.cells.insert(exact.cells.end(), face.cells.begin(), face.cells.end());
   result.cells_end = static_cast<std::uint32_t>(exact.cells.size());
+  exact.build_trim_grid(result);
   exact.faces.push_back(result);
   return static_cast<std::uint32_t>(exact.faces.size() - 1);
 }
