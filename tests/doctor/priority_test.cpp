@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <regex>
+#include <tuple>
 
 #include "doctor/doctor_scenes.hpp"
 #include "support/words.hpp"
@@ -70,6 +71,41 @@ TEST_CASE("Three parts: each is cut by all above it") {
   CHECK(scene.parts[PartId(2)].volume_mm3 == doctest::Approx(64.0 - 12.0).epsilon(1e-9));
   CHECK(scene.parts[PartId(0)].volume_mm3 ==
         doctest::Approx(400.0 - 16.0 - (2.0 * 4.0 - 2.0) * 3.0).epsilon(1e-9));
+}
+
+TEST_CASE("Parts that are apart cut another together, each with a face of its own") {
+  // Four pins through the plate, and a bar across two of them.
+  std::string parts;
+  for (const auto& [name, x, y] : {std::tuple("a", -3, -3), {"b", 3, -3}, {"c", -3, 3}, {"d", 3, 3}}) {
+    const Eigen::Vector3d low(x - 0.5, y - 0.5, -1.0), high(x + 0.5, y + 0.5, 5.0);
+    parts += part_text(name, corners(low, high) + "priority = 2\n", "lso");
+  }
+  parts += part_text("bar", corners({-5.5, 2.8, 1}, {5.5, 3.2, 3}) + "priority = 1\n", "n15");
+  const Traced traced =
+      trace(lit_scene(part_text("plate", corners({-5, -5, 0}, {5, 5, 4}), "n15") + parts, "a", 3000));
+  const Scene& scene = traced.built.scene;
+  const double bar = 11.0 * 0.4 * 2.0 - 2.0 * 1.0 * 0.4 * 2.0, outside = 2.0 * 0.5 * 0.4 * 2.0;
+  CHECK(scene.parts[PartId(0)].volume_mm3 ==
+        doctest::Approx(400.0 - 4.0 * 4.0 - (bar - outside)).epsilon(1e-9));
+  CHECK(scene.parts[PartId(5)].volume_mm3 == doctest::Approx(bar).epsilon(1e-9));
+  for (const char* alone : {"plate:cut:a", "plate:cut:b"})
+    CHECK(area_of(scene, alone) == doctest::Approx(16.0).epsilon(1e-9));
+  for (const char* crossed : {"plate:cut:c", "plate:cut:d"})
+    CHECK(area_of(scene, crossed) == doctest::Approx(16.0 - 2.0 * 0.4 * 2.0).epsilon(1e-9));
+  CHECK(area_of(scene, "bar:cut:c") == doctest::Approx(2.0 * 0.4 * 2.0).epsilon(1e-9));
+  REQUIRE(traced.built.parts[0].notes.size() == 2);
+  CHECK(contains(traced.built.parts[0].notes[0], "cut by \"a\" and 3 more"));
+  CHECK(contains(traced.built.parts[0].notes[1], "cut by \"bar\""));
+}
+
+TEST_CASE("One of several that cannot cut a part is named, and the others cut") {
+  // The second post takes away all that the lid has beside the first.
+  const std::string lid = part_text("lid", corners({-1, -1, 0}, {1, 1, 1}), "n15");
+  const std::string posts =
+      part_text("left", corners({-9, -2, -1}, {-0.5, 2, 2}) + "priority = 1\n", "lso") +
+      part_text("right", corners({-0.4, -2, -1}, {9, 2, 2}) + "priority = 1\n", "lso") +
+      part_text("rest", corners({-0.5, -2, -1}, {-0.4, 2, 2}) + "priority = 2\n", "lso");
+  check_contains(refusal(lit_scene(lid + posts, "left", 1000)), {"lid", "nothing of it would be left"});
 }
 
 TEST_CASE("A part wholly inside another is nested, whatever the priorities") {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "scintray/contact/detail/boolean_difference.hpp"
 #include "scintray/contact/detail/nesting.hpp"
@@ -14,10 +15,29 @@ namespace scintray::contact {
 
 namespace {
 
-/// A part and one of higher priority that shares volume with it.
+/// A part, and parts of higher priority that share volume with it and are apart from each other.
 struct Cut {
-  std::uint32_t part, by;
+  std::uint32_t part = 0;
+  std::vector<std::uint32_t> by;
 };
+
+/// Adds a part that cuts to the first cut of which no part is near it, or to one of its own.
+void add_cutter(std::uint32_t part, std::uint32_t by, const std::vector<PlacedMesh>& parts,
+                double tolerance_mm, std::vector<Cut>& cuts) {
+  Eigen::AlignedBox3d around = parts[by].diagnosis.bounds;
+  around.min().array() -= tolerance_mm;
+  around.max().array() += tolerance_mm;
+  const auto is_free = [&](const Cut& cut) {
+    return std::none_of(cut.by.begin(), cut.by.end(), [&](std::uint32_t other) {
+      return around.intersects(parts[other].diagnosis.bounds);
+    });
+  };
+  const auto found = std::find_if(cuts.begin(), cuts.end(), is_free);
+  if (found != cuts.end())
+    found->by.push_back(by);
+  else
+    cuts.push_back({part, {by}});
+}
 
 /// All cuts; parts of higher priority come first, so that they have their final shape when they cut.
 std::vector<Cut> find_cuts(const std::vector<PlacedMesh>& parts, const Eigen::Matrix3d& axes,
@@ -27,9 +47,14 @@ std::vector<Cut> find_cuts(const std::vector<PlacedMesh>& parts, const Eigen::Ma
   std::vector<BodyPair> pairs = near_pairs(bodies, tolerance_mm);
   std::erase_if(pairs,
                 [&](const BodyPair& pair) { return parts[pair.a].priority == parts[pair.b].priority; });
+  std::map<std::uint32_t, std::vector<Cut>> cuts_of;
+  for (const auto& [a, b] : find_nesting(bodies, pairs, tolerance_mm).overlaps) {
+    const bool first = parts[a].priority < parts[b].priority;
+    const std::uint32_t part = first ? a : b;
+    add_cutter(part, first ? b : a, parts, tolerance_mm, cuts_of[part]);
+  }
   std::vector<Cut> cuts;
-  for (const auto& [a, b] : find_nesting(bodies, pairs, tolerance_mm).overlaps)
-    cuts.push_back(parts[a].priority < parts[b].priority ? Cut{a, b} : Cut{b, a});
+  for (auto& [part, own] : cuts_of) cuts.insert(cuts.end(), own.begin(), own.end());
   std::stable_sort(cuts.begin(), cuts.end(), [&](const Cut& x, const Cut& y) {
     return parts[x.part].priority > parts[y.part].priority;
   });
@@ -101,6 +126,39 @@ void keep_supports(const std::vector<mesh::TriangleOrigin>& origins, const mesh:
   }
 }
 
+/// Parts that cut, as one mesh.
+struct Cutters {
+  std::vector<const PlacedMesh*> parts;
+  mesh::TriMesh mesh;
+  std::vector<std::uint32_t> part_of;  ///< per triangle, number in `parts`
+
+  void add(const PlacedMesh& part) {
+    mesh = parts.empty() ? part.mesh : mesh::joined(mesh, part.mesh);
+    part_of.resize(mesh.triangles.size(), static_cast<std::uint32_t>(parts.size()));
+    parts.push_back(&part);
+  }
+};
+
+void take_what_is_left(PlacedMesh& part, const Cutters& by, const mesh::BooleanResult& cut,
+                       const mesh::MeshDiagnosis& diagnosis) {
+  std::vector<std::uint32_t> cut_faces;
+  for (const PlacedMesh* one : by.parts) cut_faces.push_back(cut_face(part, *one));
+  const std::size_t others = by.parts.size() - 1;
+  std::vector<std::uint32_t> face_of;
+  for (const mesh::TriangleOrigin& origin : cut.origin)
+    face_of.push_back(origin.of_second ? cut_faces[by.part_of[origin.triangle]]
+                                       : part.face_of[origin.triangle]);
+  part.notes.push_back(
+      fmt::format("cut by \"{}\"{}, which {} the higher priority: {:.6g} of {:.6g} mm3 left",
+                  by.parts.front()->name, others > 0 ? fmt::format(" and {} more", others) : "",
+                  others > 0 ? "have" : "has", diagnosis.volume_mm3, part.diagnosis.volume_mm3));
+  mesh::TriMesh left = cut.mesh;
+  keep_supports(cut.origin, part.mesh, by.mesh, left);
+  part.mesh = std::move(left);
+  part.face_of = std::move(face_of);
+  part.diagnosis = diagnosis;
+}
+
 void cut(PlacedMesh& part, const PlacedMesh& by, const Eigen::Matrix3d& axes, double tolerance_mm,
          core::Problems& problems) {
   const auto refuse = [&](const std::string& why, const std::string& hint) {
@@ -128,17 +186,23 @@ void cut(PlacedMesh& part, const PlacedMesh& by, const Eigen::Matrix3d& axes, do
   const auto unsound = mesh::mesh_problems(diagnosis, part.name);
   if (!unsound.empty()) return refuse("afterwards " + unsound.front().what, advice());
 
-  std::vector<std::uint32_t> face_of;
-  const std::uint32_t face = cut_face(part, by);
-  for (const mesh::TriangleOrigin& origin : cut->origin)
-    face_of.push_back(origin.of_second ? face : part.face_of[origin.triangle]);
-  part.notes.push_back(fmt::format("cut by \"{}\", which has the higher priority: {:.6g} of {:.6g} mm3 left",
-                                   by.name, diagnosis.volume_mm3, part.diagnosis.volume_mm3));
-  mesh::TriMesh left = cut->mesh;
-  keep_supports(cut->origin, part.mesh, by.mesh, left);
-  part.mesh = std::move(left);
-  part.face_of = std::move(face_of);
-  part.diagnosis = diagnosis;
+  Cutters cutters;
+  cutters.add(by);
+  take_what_is_left(part, cutters, *cut, diagnosis);
+}
+
+/// Cuts a part by several at once, which takes a fraction of the time of one after another.
+/// @return false when the result is no part: the part is as before
+bool cut_at_once(PlacedMesh& part, const std::vector<PlacedMesh>& parts, const std::vector<std::uint32_t>& by,
+                 const Eigen::Matrix3d& axes, double tolerance_mm) {
+  Cutters cutters;
+  for (const std::uint32_t one : by) cutters.add(parts[one]);
+  const auto cut = difference_on_grid(part.mesh, cutters.mesh, axes, tolerance_mm);
+  if (!cut || cut->mesh.triangles.empty() || (part.surface.empty() && part.needs_surface)) return false;
+  const mesh::MeshDiagnosis diagnosis = mesh::diagnose_in_place(cut->mesh);
+  if (!mesh::mesh_problems(diagnosis, part.name).empty()) return false;
+  take_what_is_left(part, cutters, *cut, diagnosis);
+  return true;
 }
 
 }  // namespace
@@ -153,7 +217,10 @@ void cut_overlaps(std::vector<PlacedMesh>& parts, double tolerance_mm, core::Pro
   const std::vector<Cut> cuts = find_cuts(parts, axes, tolerance_mm);
   for (std::size_t i = 0; i < cuts.size(); ++i) {
     core::report_activity("cutting parts: " + parts[cuts[i].part].name, i, cuts.size());
-    cut(parts[cuts[i].part], parts[cuts[i].by], axes, tolerance_mm, problems);
+    PlacedMesh& part = parts[cuts[i].part];
+    const std::vector<std::uint32_t>& by = cuts[i].by;
+    if (by.size() > 1 && cut_at_once(part, parts, by, axes, tolerance_mm)) continue;
+    for (const std::uint32_t one : by) cut(part, parts[one], axes, tolerance_mm, problems);
   }
 }
 
