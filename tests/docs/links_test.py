@@ -5,7 +5,7 @@ import re
 import unittest
 from pathlib import Path
 
-SOURCE = Path(os.environ['SCINTRAY_SOURCE'])
+SOURCE = Path(os.environ['SCINTRAY_SOURCE']).resolve()
 LINK = re.compile(r'\]\(([^()\s]+)\)')
 FENCE = re.compile(r'^```.*?^```', re.MULTILINE | re.DOTALL)
 # Pages that tools/docs writes.

@@ -98,14 +98,19 @@ TEST_CASE("Parts that are apart cut another together, each with a face of its ow
   CHECK(contains(traced.built.parts[0].notes[1], "cut by \"bar\""));
 }
 
-TEST_CASE("One of several that cannot cut a part is named, and the others cut") {
-  // The second post takes away all that the lid has beside the first.
-  const std::string lid = part_text("lid", corners({-1, -1, 0}, {1, 1, 1}), "n15");
-  const std::string posts =
-      part_text("left", corners({-9, -2, -1}, {-0.5, 2, 2}) + "priority = 1\n", "lso") +
-      part_text("right", corners({-0.4, -2, -1}, {9, 2, 2}) + "priority = 1\n", "lso") +
-      part_text("rest", corners({-0.5, -2, -1}, {-0.4, 2, 2}) + "priority = 2\n", "lso");
-  check_contains(refusal(lit_scene(lid + posts, "left", 1000)), {"lid", "nothing of it would be left"});
+TEST_CASE("One of several that cannot cut a part is named alone") {
+  // The clad rod has a corner on that of the glue around it, where nothing would be left; the pins cut.
+  std::string text =
+      "[[part]]\nname = \"glue\"\ncylinder = { radius = \"2 mm\", height = \"30 mm\", segments = 32 }\n"
+      "medium = \"n15\"\nsurface = \"flat\"\n[[part]]\nname = \"clad\"\ncylinder = { radius = \"1.8 mm\", "
+      "height = \"25 mm\", segments = 24 }\ntranslate = [\"0.2 mm\", \"0 mm\", \"-15 mm\"]\nmedium = "
+      "\"lso\"\nsurface = \"flat\"\npriority = 3\n";
+  for (const int z : {12, 16, 20})
+    text += part_text(fmt::format("pin{}", z),
+                      corners({-5, -0.5, z - 0.5}, {5, 0.5, z + 0.5}) + "priority = 3\n", "lso");
+  const std::string refused = refusal(lit_scene(text, "clad", 10));
+  check_contains(refused, {"\"glue\"", "cannot be cut by \"clad\""});
+  CHECK_FALSE(contains(refused, "cannot be cut by \"pin"));
 }
 
 TEST_CASE("A part wholly inside another is nested, whatever the priorities") {

@@ -4,6 +4,7 @@
 
 #include "physics/traced.hpp"
 #include "scintray/core/sampling.hpp"
+#include "scintray/source/photon_optics.hpp"
 #include "scintray/transport/step.hpp"
 #include "support/photon_source.hpp"
 
@@ -123,6 +124,47 @@ TEST_CASE("Dichroic plate: each ray is attenuated with the coefficient of its fi
                         (along_x / std::pow(kOrdinary, 3) + along_z / std::pow(kExtraordinary, 3));
   check_law("extraordinary", binomial_estimate(behind.extraordinary, behind.photons),
             {through_two_faces(kIndexAt45) * std::pow(std::cos(0.7), 2) * std::exp(-5.0 * per_mm), 0.0});
+}
+
+TEST_CASE("Scattering of a mode: Rayleigh's with the emission along its field, particles without") {
+  const scene_file::SceneSpec spec = scene_spec(fmt::format(R"(
+ambient = "vacuum_n1"
+[[part]]
+name = "crystal"
+box = ["10 mm", "10 mm", "10 mm"]
+medium = "spar"
+surface = "flat"
+principal_axes = {{ z = [0, 0, 1] }}
+[source]
+type = "photons"
+position = ["0 mm", "0 mm", "5 mm"]
+wavelength = "500 nm"
+photons = 1
+[media.spar]
+index = {{ n = {}, z = {{ n = {} }} }}
+absorption = {{ none = true }}
+scattering = {{ length = "10 mm", kind = "rayleigh" }}
+particles = {{ length = "5 mm", forward = 0.9 }}
+)",
+                                                            kOrdinary, kExtraordinary));
+  scene::SceneBuilder builder;
+  const scene::BuiltScene built = builder.build(spec);
+  Rng rng(18, StreamKind::photon, 0);
+  source::Photon photon = PhotonSource(spec.source, built.scene).emit(built.scene, rng);
+  photon.ray.direction = Vec3(Vec3::UnitX());
+  const double mean_index =
+      built.scene.optics.at(built.scene.regions[photon.region].medium, photon.wavelength_nm).index;
+  const double along = 4.0 * kOrdinary2 / (kExtraordinary2 + 3.0 * kOrdinary2);  // relative to across
+  for (const bool extraordinary : {false, true}) {
+    photon.ray.polarisation = extraordinary ? Vec3(Vec3::UnitZ()) : Vec3(Vec3::UnitY());
+    source::take_mode(built.scene, photon, rng);
+    const double n = extraordinary ? kExtraordinary : kOrdinary,
+                 emission = 3.0 * (extraordinary ? along : 1.0) / (2.0 + along);
+    CHECK(source::scattering_by_particles(built.scene, photon) ==
+          doctest::Approx(0.2 * mean_index / n).epsilon(1e-9));
+    CHECK(photon.optics.scattering_per_mm ==
+          doctest::Approx((0.2 + 0.1 * emission) * mean_index / n).epsilon(1e-7));
+  }
 }
 
 TEST_CASE(

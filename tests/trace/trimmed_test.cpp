@@ -456,6 +456,7 @@ TrimmedFace face_with_holes(ExactBodies& exact, bool flat) {
   hole(mesh::SupportSurface::sphere({0.0, 0.0, 1.0}, 2.0));
   hole(mesh::SupportSurface::cone({10.0, 0.0, 0.0}, Vec3::UnitX(), 1.0, 3.0, 8.0));
   hole(mesh::SupportSurface::torus({-10.0, 0.0, 0.0}, Vec3::UnitZ(), 2.0, 0.5));
+  hole(mesh::SupportSurface::torus({0.0, -10.0, 0.0}, Vec3(0.0, 1.0, 1.0).normalized(), 1.2, 0.36));
   TrimmedFace face;
   face.low = Vec3(-20.0, -20.0, flat ? 2.0 : -3.0);
   face.high = Vec3(20.0, 20.0, flat ? 2.0 : 3.0);
@@ -464,6 +465,35 @@ TrimmedFace face_with_holes(ExactBodies& exact, bool flat) {
 }
 
 }  // namespace
+
+TEST_CASE("A support surface's function changes by no more than its bound, on its axis as beside it") {
+  const Vec3 origin(0.3, -0.2, 0.1), axis = Vec3(1.0, 2.0, 3.0).normalized();
+  const std::vector<mesh::SupportSurface> surfaces{
+      mesh::SupportSurface::sphere(origin, 2.0),
+      mesh::SupportSurface::cylinder(origin, axis, 1.5),
+      mesh::SupportSurface::cone(origin, axis, 1.0, 3.0, 4.0),
+      mesh::SupportSurface::spheroid(origin, axis, 1.0, 3.0),
+      mesh::SupportSurface::quadric(origin, axis, 0.0, 0.7, 1.0),
+      mesh::SupportSurface::quadric(origin, axis, -0.5, 0.2, 2.0),
+      mesh::SupportSurface::torus(origin, axis, 2.0, 0.5)};
+  Rng rng(22, StreamKind::photon, 0);
+  double largest_share = 0.0;
+  for (const mesh::SupportSurface& surface : surfaces) {
+    CAPTURE(surface.name());
+    for (int i = 0; i < 20'000; ++i) {
+      const Vec3 at = i % 4 == 0   ? Vec3(origin + (6.0 * rng.uniform() - 3.0) * axis)
+                      : i % 4 == 1 ? origin
+                                   : Vec3(origin + 4.0 * rng.uniform() * sample_isotropic(rng));
+      const double within = 2.0 * rng.uniform();
+      const Vec3 other = at + (i % 2 == 0 ? 1.0 : rng.uniform()) * within * sample_isotropic(rng);
+      const double change = std::abs(surface.value(other) - surface.value(at));
+      const double bound = surface.most_change(at, within);
+      CHECK(change <= bound * (1.0 + 1e-12) + 1e-12);
+      largest_share = std::max(largest_share, change / bound);
+    }
+  }
+  CHECK(largest_share > 0.9);  // no wider than it has to be
+}
 
 TEST_CASE("The grid of a face with many trims answers as they do") {
   for (const bool flat : {true, false}) {
@@ -484,7 +514,8 @@ TEST_CASE("The grid of a face with many trims answers as they do") {
       Vec3 point(42.0 * rng.uniform() - 21.0, 42.0 * rng.uniform() - 21.0,
                  flat ? 2.0 : 6.2 * rng.uniform() - 3.1);
       if (i % 2 == 0) {  // next to the edge of a hole
-        const mesh::SupportSurface& surface = exact.trim_surfaces[static_cast<std::size_t>(i / 2) % 19];
+        const mesh::SupportSurface& surface =
+            exact.trim_surfaces[static_cast<std::size_t>(i / 2) % exact.trim_surfaces.size()];
         for (int step = 0; step < 3; ++step) point += surface.correction(point);
         point += 1e-9 * core::sample_isotropic(rng);
       }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "scintray/contact/detail/boolean_difference.hpp"
 #include "scintray/contact/detail/nesting.hpp"
@@ -21,7 +22,7 @@ struct Cut {
   std::vector<std::uint32_t> by;
 };
 
-/// Adds a part that cuts to the first cut of which no part is near it, or to one of its own.
+/// Adds a cutter to the first cut whose cutters are all apart from it, or starts a new one.
 void add_cutter(std::uint32_t part, std::uint32_t by, const std::vector<PlacedMesh>& parts,
                 double tolerance_mm, std::vector<Cut>& cuts) {
   Eigen::AlignedBox3d around = parts[by].diagnosis.bounds;
@@ -49,9 +50,9 @@ std::vector<Cut> find_cuts(const std::vector<PlacedMesh>& parts, const Eigen::Ma
                 [&](const BodyPair& pair) { return parts[pair.a].priority == parts[pair.b].priority; });
   std::map<std::uint32_t, std::vector<Cut>> cuts_of;
   for (const auto& [a, b] : find_nesting(bodies, pairs, tolerance_mm).overlaps) {
-    const bool first = parts[a].priority < parts[b].priority;
-    const std::uint32_t part = first ? a : b;
-    add_cutter(part, first ? b : a, parts, tolerance_mm, cuts_of[part]);
+    const bool a_is_cut = parts[a].priority < parts[b].priority;
+    const std::uint32_t part = a_is_cut ? a : b;
+    add_cutter(part, a_is_cut ? b : a, parts, tolerance_mm, cuts_of[part]);
   }
   std::vector<Cut> cuts;
   for (auto& [part, own] : cuts_of) cuts.insert(cuts.end(), own.begin(), own.end());
@@ -112,48 +113,67 @@ std::string change_that_helps(const PlacedMesh& part, const PlacedMesh& by, cons
   return "";
 }
 
-/// Gives the triangles that are left of a cut the support surfaces of those that they are pieces of.
-void keep_supports(const std::vector<mesh::TriangleOrigin>& origins, const mesh::TriMesh& of,
-                   const mesh::TriMesh& by, mesh::TriMesh& left) {
-  left.supports.clear();
-  left.support.clear();
-  if (of.supports.empty() && by.supports.empty()) return;
-  for (const mesh::TriangleOrigin& origin : origins) {
-    const mesh::TriMesh& from = origin.of_second ? by : of;
-    const std::uint32_t support = from.support_of(origin.triangle);
-    left.support.push_back(support == mesh::kNoSupport ? support
-                                                       : left.support_index(from.supports[support]));
-  }
-}
-
-/// Parts that cut, as one mesh.
+/// Parts that cut, as one mesh without groups and supports.
 struct Cutters {
   std::vector<const PlacedMesh*> parts;
   mesh::TriMesh mesh;
-  std::vector<std::uint32_t> part_of;  ///< per triangle, number in `parts`
+  struct Triangle {
+    std::uint32_t part, triangle;  ///< in `parts`, and of its mesh
+  };
+  std::vector<Triangle> triangles;  ///< per triangle of the mesh
 
   void add(const PlacedMesh& part) {
-    mesh = parts.empty() ? part.mesh : mesh::joined(mesh, part.mesh);
-    part_of.resize(mesh.triangles.size(), static_cast<std::uint32_t>(parts.size()));
+    const auto number = static_cast<std::uint32_t>(parts.size()),
+               first = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.insert(mesh.vertices.end(), part.mesh.vertices.begin(), part.mesh.vertices.end());
+    for (std::uint32_t i = 0; i < part.mesh.triangles.size(); ++i) {
+      const auto& [a, b, c] = part.mesh.triangles[i];
+      mesh.triangles.push_back({first + a, first + b, first + c});
+      triangles.push_back({number, i});
+    }
     parts.push_back(&part);
   }
 };
+
+/// Gives the triangles that are left of a cut the support surfaces of those that they are pieces of.
+void keep_supports(const std::vector<mesh::TriangleOrigin>& origins, const mesh::TriMesh& of,
+                   const Cutters& by, mesh::TriMesh& left) {
+  left.supports.clear();
+  left.support.clear();
+  if (of.supports.empty() && std::all_of(by.parts.begin(), by.parts.end(),
+                                         [](const PlacedMesh* part) { return part->mesh.supports.empty(); }))
+    return;
+  std::map<std::pair<const mesh::TriMesh*, std::uint32_t>, std::uint32_t> known;
+  for (const mesh::TriangleOrigin& origin : origins) {
+    const mesh::TriMesh* from = &of;
+    std::uint32_t triangle = origin.triangle;
+    if (origin.of_second) {
+      const Cutters::Triangle cutter = by.triangles[triangle];
+      from = &by.parts[cutter.part]->mesh;
+      triangle = cutter.triangle;
+    }
+    const std::uint32_t support = from->support_of(triangle);
+    const auto [at, is_new] = known.try_emplace({from, support}, mesh::kNoSupport);
+    if (is_new && support != mesh::kNoSupport) at->second = left.support_index(from->supports[support]);
+    left.support.push_back(at->second);
+  }
+}
 
 void take_what_is_left(PlacedMesh& part, const Cutters& by, const mesh::BooleanResult& cut,
                        const mesh::MeshDiagnosis& diagnosis) {
   std::vector<std::uint32_t> cut_faces;
   for (const PlacedMesh* one : by.parts) cut_faces.push_back(cut_face(part, *one));
-  const std::size_t others = by.parts.size() - 1;
   std::vector<std::uint32_t> face_of;
   for (const mesh::TriangleOrigin& origin : cut.origin)
-    face_of.push_back(origin.of_second ? cut_faces[by.part_of[origin.triangle]]
+    face_of.push_back(origin.of_second ? cut_faces[by.triangles[origin.triangle].part]
                                        : part.face_of[origin.triangle]);
-  part.notes.push_back(
-      fmt::format("cut by \"{}\"{}, which {} the higher priority: {:.6g} of {:.6g} mm3 left",
-                  by.parts.front()->name, others > 0 ? fmt::format(" and {} more", others) : "",
-                  others > 0 ? "have" : "has", diagnosis.volume_mm3, part.diagnosis.volume_mm3));
+  const std::size_t others = by.parts.size() - 1;
+  part.notes.push_back(fmt::format("cut by \"{}\"{} of higher priority: {:.6g} of {:.6g} mm3 left",
+                                   by.parts.front()->name,
+                                   others > 0 ? fmt::format(" and {} more", others) : "",
+                                   diagnosis.volume_mm3, part.diagnosis.volume_mm3));
   mesh::TriMesh left = cut.mesh;
-  keep_supports(cut.origin, part.mesh, by.mesh, left);
+  keep_supports(cut.origin, part.mesh, by, left);
   part.mesh = std::move(left);
   part.face_of = std::move(face_of);
   part.diagnosis = diagnosis;
@@ -193,16 +213,27 @@ void cut(PlacedMesh& part, const PlacedMesh& by, const Eigen::Matrix3d& axes, do
 
 /// Cuts a part by several at once, which takes a fraction of the time of one after another.
 /// @return false when the result is no part: the part is as before
-bool cut_at_once(PlacedMesh& part, const std::vector<PlacedMesh>& parts, const std::vector<std::uint32_t>& by,
-                 const Eigen::Matrix3d& axes, double tolerance_mm) {
-  Cutters cutters;
-  for (const std::uint32_t one : by) cutters.add(parts[one]);
-  const auto cut = difference_on_grid(part.mesh, cutters.mesh, axes, tolerance_mm);
-  if (!cut || cut->mesh.triangles.empty() || (part.surface.empty() && part.needs_surface)) return false;
+bool cut_at_once(PlacedMesh& part, const Cutters& by, const Eigen::Matrix3d& axes, double tolerance_mm) {
+  if (part.surface.empty() && part.needs_surface) return false;
+  const auto cut = difference_on_grid(part.mesh, by.mesh, axes, tolerance_mm);
+  if (!cut || cut->mesh.triangles.empty()) return false;
   const mesh::MeshDiagnosis diagnosis = mesh::diagnose_in_place(cut->mesh);
   if (!mesh::mesh_problems(diagnosis, part.name).empty()) return false;
-  take_what_is_left(part, cutters, *cut, diagnosis);
+  take_what_is_left(part, by, *cut, diagnosis);
   return true;
+}
+
+/// Cuts a part by several; where they cannot cut it together, by each half of them, down to the one that
+/// cannot.
+void cut_by_all(PlacedMesh& part, const std::vector<const PlacedMesh*>& by, const Eigen::Matrix3d& axes,
+                double tolerance_mm, core::Problems& problems) {
+  if (by.size() == 1) return cut(part, *by.front(), axes, tolerance_mm, problems);
+  Cutters cutters;
+  for (const PlacedMesh* one : by) cutters.add(*one);
+  if (cut_at_once(part, cutters, axes, tolerance_mm)) return;
+  const auto middle = by.begin() + static_cast<std::ptrdiff_t>(by.size() / 2);
+  cut_by_all(part, {by.begin(), middle}, axes, tolerance_mm, problems);
+  cut_by_all(part, {middle, by.end()}, axes, tolerance_mm, problems);
 }
 
 }  // namespace
@@ -217,10 +248,9 @@ void cut_overlaps(std::vector<PlacedMesh>& parts, double tolerance_mm, core::Pro
   const std::vector<Cut> cuts = find_cuts(parts, axes, tolerance_mm);
   for (std::size_t i = 0; i < cuts.size(); ++i) {
     core::report_activity("cutting parts: " + parts[cuts[i].part].name, i, cuts.size());
-    PlacedMesh& part = parts[cuts[i].part];
-    const std::vector<std::uint32_t>& by = cuts[i].by;
-    if (by.size() > 1 && cut_at_once(part, parts, by, axes, tolerance_mm)) continue;
-    for (const std::uint32_t one : by) cut(part, parts[one], axes, tolerance_mm, problems);
+    std::vector<const PlacedMesh*> by;
+    for (const std::uint32_t one : cuts[i].by) by.push_back(&parts[one]);
+    cut_by_all(parts[cuts[i].part], by, axes, tolerance_mm, problems);
   }
 }
 

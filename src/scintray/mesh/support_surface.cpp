@@ -97,6 +97,16 @@ bool SupportSurface::is_on_sheet(const core::Vec3& point) const {
   return (axis.dot(point - origin) - between) * between <= 0.0;
 }
 
+double SupportSurface::most_change(const core::Vec3& point, double within_mm) const {
+  const Place at = place(point);
+  const double rho = at.rho.norm();
+  // The distance from the circle, and those along and from the axis, change by as much as the point moves.
+  if (is_torus()) return (2.0 * std::hypot(rho - major, at.z) + within_mm) * within_mm;
+  return (2.0 * rho + within_mm + std::abs(axial) * (2.0 * std::abs(at.z) + within_mm) +
+          2.0 * std::abs(slope)) *
+         within_mm;
+}
+
 core::Vec3 SupportSurface::normal(const core::Vec3& point) const {
   if (!is_torus()) [[likely]]
     return core::vec(numbers().normal(core::triple(point)));

@@ -2,7 +2,6 @@
 /// Surfaces that the triangles of round faces approximate.
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <type_traits>
@@ -68,14 +67,8 @@ struct SupportSurface {
     const Place at = place(point);
     return (at.rho.norm() - major) * (at.rho.norm() - major) + at.z * at.z - radius2;
   }
-  /// Largest difference of q (mm2) between a point and any other within a distance (mm).
-  double most_change(const core::Vec3& point, double within_mm) const {
-    if (is_torus()) return (2.0 * (point - middle(point)).norm() + within_mm) * within_mm;
-    const Place at = place(point);
-    return (2.0 * at.rho.norm() + within_mm + std::abs(axial) * (2.0 * std::abs(at.z) + within_mm) +
-            2.0 * std::abs(slope)) *
-           within_mm;
-  }
+  /// Upper bound of the difference of q (mm2) between a point and any other within a distance (mm).
+  double most_change(const core::Vec3& point, double within_mm) const;
   /// Half the gradient of q (mm), which points outwards; zero at the tip of a cone.
   core::Vec3 gradient(const core::Vec3& point) const {
     if (!is_torus()) [[likely]]

@@ -69,14 +69,18 @@ void ExactBodies::build_face_tree(ExactBody& body) {
     const core::Vec3 side = box.sizes();
     return side.x() * side.y() + side.y() * side.z() + side.z() * side.x();
   };
-  // Nearly every ray reaches the box of such a face, which would make every box of the tree as large.
+  // Nearly every ray reaches the box of such a face, which would make every box of the tree as large. Where
+  // there are more of them, as in a comb, the tree is faster.
   constexpr double kLarge = 0.05;
+  constexpr std::uint32_t kMostLarge = 8;
   const double least = kLarge * size_of(Box(body.low.vec(), body.high.vec()));
-  const auto other = std::stable_partition(faces_in_leaves.begin() + begin, faces_in_leaves.end(),
-                                           [&](std::uint32_t i) { return size_of(box_of(i)) >= least; });
-  body.large_begin = begin;
-  body.large_end = static_cast<std::uint32_t>(other - faces_in_leaves.begin());
-  if (other == faces_in_leaves.end()) return;
+  const auto is_large = [&](std::uint32_t i) { return size_of(box_of(i)) >= least; };
+  const auto from = faces_in_leaves.begin() + begin;
+  body.large_begin = body.large_end = begin;
+  if (std::count_if(from, faces_in_leaves.end(), is_large) <= kMostLarge)
+    body.large_end = static_cast<std::uint32_t>(std::stable_partition(from, faces_in_leaves.end(), is_large) -
+                                                faces_in_leaves.begin());
+  if (body.large_end == faces_in_leaves.size()) return;
   body.root = static_cast<std::uint32_t>(face_nodes.size());
   TreeBuilder(face_nodes, faces_in_leaves, box_of)
       .add(body.large_end, static_cast<std::uint32_t>(faces_in_leaves.size()));

@@ -96,8 +96,8 @@ struct ExactBody {
   std::uint32_t first = kNoSurface;              ///< a triangle of the region's boundary on it
   core::PlainVec3 low, high;                     ///< corners of a box around it, mm
   std::uint32_t faces_begin = 0, faces_end = 0;  ///< where it is not convex
-  /// Of many faces those that are as large as the body, which a ray is compared with before the others: a
-  /// range of ExactBodies::faces_in_leaves.
+  /// Of many faces the few whose boxes have a twentieth or more of the surface of the body's box, with which
+  /// a ray is compared before the others: a range of ExactBodies::faces_in_leaves.
   std::uint32_t large_begin = 0, large_end = 0;
   std::uint32_t root = kNoSurface;  ///< in ExactBodies::face_nodes, of a body with many faces
   double rounding_mm = 0.0;         ///< of positions

@@ -58,11 +58,8 @@ void scatter_rayleigh(optics::Ray& ray, core::Rng& rng) {
 bool scatter_at_particles(const scene::Scene& scene, core::MediumId id, source::Photon& photon,
                           core::Rng& rng) {
   const optics::ParticleScattering& particles = *scene.media[id].medium().particles;
-  // In a birefringent medium the photon's own coefficient is that of its mode.
-  const double all_per_mm = scene.optics.media[id].birefringent
-                                ? scene.optics.at(id, photon.wavelength_nm).scattering_per_mm
-                                : photon.optics.scattering_per_mm;
-  if (rng.uniform() * all_per_mm >= particles.per_mm(photon.wavelength_nm)) return false;
+  if (rng.uniform() * photon.optics.scattering_per_mm >= source::scattering_by_particles(scene, photon))
+    return false;
   const bool forward = rng.uniform() < particles.forward_share;
   scatter_henyey_greenstein(photon.ray, forward ? particles.forward_g : particles.backward_g, forward, rng);
   return true;
