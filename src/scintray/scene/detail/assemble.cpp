@@ -10,7 +10,6 @@
 #include "scintray/core/activity.hpp"
 #include "scintray/core/pattern.hpp"
 #include "scintray/scene/detail/round_parts.hpp"
-#include "scintray/scene/detail/sensor_faces.hpp"
 
 namespace scintray::scene {
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scintray/contact/contacts.hpp"
+#include "scintray/core/error.hpp"
 #include "scintray/mesh/trimesh.hpp"
 #include "scintray/scene/scene.hpp"
 #include "scintray/scene_file/spec.hpp"
@@ -55,6 +56,10 @@ struct Assembly {
 /// The scene of an assembly. Throws InputError, with every problem, for parts that overlap, contacts between
 /// parts that do not touch, and shared faces whose two surfaces disagree.
 Scene assemble(const Assembly& assembly);
+
+/// Sets Scene::sensor_frames, where a sensor's efficiency depends on the place on its face. Requires the
+/// scene's faces. Adds to `problems` the faces that have no direction.
+void place_sensor_faces(const Assembly& assembly, Scene& scene, core::Problems& problems);
 
 /// Id of a part's region, or of the ambient region for no part. The ambient region is the first, followed by
 /// those of the parts in their order.

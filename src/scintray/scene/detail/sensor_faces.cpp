@@ -1,4 +1,4 @@
-#include "scintray/scene/detail/sensor_faces.hpp"
+#include "scintray/scene/detail/assemble.hpp"
 
 #include <algorithm>
 #include <cmath>
