@@ -18,7 +18,8 @@ constexpr double kOrdinary = 1.66, kExtraordinary = 1.49;
 
 /// A beam along z through a plate of 5 mm, whose optic axis is at 45 deg to the beam in the x-z plane,
 /// polarised at an azimuth to x.
-std::string plate(double azimuth_rad, const std::string& absorption = "{ none = true }") {
+std::string plate(double azimuth_rad, const std::string& absorption = "{ none = true }",
+                  const std::string& scattering = "{ none = true }") {
   return fmt::format(R"(
 ambient = "vacuum_n1"
 [[part]]
@@ -37,9 +38,10 @@ photons = 1
 [media.spar]
 index = {{ n = {}, z = {{ n = {} }} }}
 absorption = {}
-scattering = {{ none = true }}
+scattering = {}
 )",
-                     std::cos(azimuth_rad), std::sin(azimuth_rad), kOrdinary, kExtraordinary, absorption);
+                     std::cos(azimuth_rad), std::sin(azimuth_rad), kOrdinary, kExtraordinary, absorption,
+                     scattering);
 }
 
 /// What arrives behind a plate without reflection at its back.
@@ -127,36 +129,20 @@ TEST_CASE("Dichroic plate: each ray is attenuated with the coefficient of its fi
 }
 
 TEST_CASE("Scattering of a mode: Rayleigh's with the emission along its field, particles without") {
-  const scene_file::SceneSpec spec = scene_spec(fmt::format(R"(
-ambient = "vacuum_n1"
-[[part]]
-name = "crystal"
-box = ["10 mm", "10 mm", "10 mm"]
-medium = "spar"
-surface = "flat"
-principal_axes = {{ z = [0, 0, 1] }}
-[source]
-type = "photons"
-position = ["0 mm", "0 mm", "5 mm"]
-wavelength = "500 nm"
-photons = 1
-[media.spar]
-index = {{ n = {}, z = {{ n = {} }} }}
-absorption = {{ none = true }}
-scattering = {{ length = "10 mm", kind = "rayleigh" }}
-particles = {{ length = "5 mm", forward = 0.9 }}
-)",
-                                                            kOrdinary, kExtraordinary));
+  const std::string scattering =
+      "{ length = \"10 mm\", kind = \"rayleigh\" }\nparticles = { length = \"5 mm\", forward = 0.9 }";
+  const scene_file::SceneSpec spec = scene_spec(plate(0.0, "{ none = true }", scattering));
   scene::SceneBuilder builder;
   const scene::BuiltScene built = builder.build(spec);
   Rng rng(18, StreamKind::photon, 0);
   source::Photon photon = PhotonSource(spec.source, built.scene).emit(built.scene, rng);
-  photon.ray.direction = Vec3(Vec3::UnitX());
+  photon.region = RegionId(1);  // the plate
+  photon.ray.direction = Vec3(Vec3::UnitY());
   const double mean_index =
       built.scene.optics.at(built.scene.regions[photon.region].medium, photon.wavelength_nm).index;
   const double along = 4.0 * kOrdinary2 / (kExtraordinary2 + 3.0 * kOrdinary2);  // relative to across
   for (const bool extraordinary : {false, true}) {
-    photon.ray.polarisation = extraordinary ? Vec3(Vec3::UnitZ()) : Vec3(Vec3::UnitY());
+    photon.ray.polarisation = Vec3(1.0, 0.0, extraordinary ? 1.0 : -1.0).normalized();
     source::take_mode(built.scene, photon, rng);
     const double n = extraordinary ? kExtraordinary : kOrdinary,
                  emission = 3.0 * (extraordinary ? along : 1.0) / (2.0 + along);
