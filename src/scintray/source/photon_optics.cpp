@@ -10,8 +10,9 @@ const optics::BirefringentOptics* birefringent_medium(const scene::Scene& scene,
 
 /// Coefficient of scattering by particles of the medium.
 double particles_per_mm(const scene::Scene& scene, const Photon& photon) {
-  const auto& particles = scene.media[scene.regions[photon.region].medium].medium().particles;
-  return particles ? particles->per_mm(photon.wavelength_nm) : 0.0;
+  const core::MediumId id = scene.regions[photon.region].medium;
+  if (!scene.optics.media[id].particles) return 0.0;
+  return scene.media[id].medium().particles->per_mm(photon.wavelength_nm);
 }
 
 void set_mode_optics(const scene::Scene& scene, const optics::BirefringentOptics& medium, Photon& photon) {
