@@ -1,6 +1,7 @@
 """Every block of docs/python.md runs, one after the other; the example too, with fewer events."""
 
 import ast
+import json
 import os
 import re
 
@@ -65,8 +66,20 @@ class Pages(Case):
         names = {}
         exec(compile(short, 'lyso_array.py', 'exec'), names)
         self.assertEqual(len(names['results'].events().channels['name']), 64)
-        self.assertIsNotNone(names['analysis'].flood)
+        analysis = names['analysis']
+        for part in (analysis.flood, analysis.spectrum, analysis.light_against_depth, analysis.ctr):
+            self.assertIsNotNone(part)
         plt.close('all')
+
+    def test_the_notebook_is_the_example_with_its_output(self):
+        source = (SOURCE / 'docs/examples/lyso_array.py').read_text()
+        cells = [part.partition('\n') for part in re.split(r'^# %%', source, flags=re.MULTILINE)[1:]]
+        expected = [body.strip() for head, _, body in cells if 'markdown' not in head]
+        notebook = json.loads((SOURCE / 'docs/examples/lyso_array.ipynb').read_text())
+        code = [cell for cell in notebook['cells'] if cell['cell_type'] == 'code']
+        self.assertEqual([''.join(cell['source']) for cell in code], expected)
+        pictures = [output for cell in code for output in cell['outputs'] if 'image/png' in output.get('data', {})]
+        self.assertEqual(len(pictures), 2)
 
 
 if __name__ == '__main__':

@@ -159,6 +159,94 @@ class Objects(Case):
         self.refused(lambda: scintray.fit(crystal()), 'fit')
         self.refused(lambda: scintray.reweight('none.h5', 'LSO', [1], property='colour'), 'colour')
 
+    def test_arguments_of_wrong_kinds_are_named(self):
+        flat = scintray.HeightMap(np.zeros((8, 8)), 1.0)
+        table = flat.table(1.8, rays=20)
+        results = detector(5).run()
+        synthesize, goniometer = scintray.HeightMap.synthesize, scintray.goniometer
+        cases = (
+            (lambda: flat.visible_slope(95), 'incidence_deg is 95'),
+            (lambda: flat.visible_slope(0, rays='many'), "rays is 'many'"),
+            (lambda: flat.table(1.8, seed='a'), "seed is 'a'"),
+            (lambda: flat.table(0.0), 'inside is 0'),
+            (lambda: flat.table(1.8, directional='no'), 'directional', 'True or False'),
+            (lambda: flat.prepared(level=-1), 'level is -1'),
+            (lambda: flat.prepared(gaussian_um=np.nan), 'gaussian_um is nan'),
+            (lambda: flat.write(7), 'path is 7'),
+            (lambda: table.reflectance(np.nan), 'not finite'),
+            (lambda: table.reflectance(91), 'incidence_deg has 91'),
+            (lambda: table.reflectance(10, side='up'), "side is 'up'"),
+            (lambda: table.reflectance(10, slice=9), 'slice is 9', 'from 0 to 0'),
+            (lambda: table.write(None), 'path is None'),
+            (lambda: synthesize('gaussian'), 'rms_height_um and correlation_length_um'),
+            (lambda: synthesize('gaussian', rms_height_um='a', correlation_length_um=1), "rms_height_um is 'a'"),
+            (lambda: synthesize('gaussian', rms_height_um=1, correlation_length_um=-1), 'correlation_length_um is -1'),
+            (lambda: synthesize('ground', seed=-1), 'seed is -1'),
+            (lambda: synthesize('ground', points=-1), 'points is -1'),
+            (lambda: synthesize('ground', points=10**9), 'points is 1000000000', 'to 16384'),
+            (lambda: synthesize(['ground']), 'kind of map'),
+            (lambda: scintray.HeightMap('abc', 1.0), 'heights_um is not an array of numbers'),
+            (lambda: scintray.HeightMap(np.zeros((4, 4)), [1, 2, 3]), 'pitch_um has 3 numbers'),
+            (lambda: scintray.HeightMap(np.zeros((4, 4)), 1.0, title=5), 'title is 5'),
+            (lambda: scintray.HeightMap.read(5), 'path is 5'),
+            (lambda: scintray.HeightMap.read('a.txt', pitch_um='1'), "pitch_um is '1'"),
+            (lambda: goniometer(7, 10), 'surface is 7'),
+            (lambda: goniometer('polished', 10, seed=-1), 'seed is -1'),
+            (lambda: goniometer('polished', 10, definitions=5), 'definitions is 5'),
+            (lambda: goniometer('polished', 10, wavelength_nm=True), 'wavelength_nm is True'),
+            (lambda: scintray.Medium(7), 'name is 7'),
+            (lambda: scintray.ResponseMap.build(detector(), seed=-1), 'seed is -1'),
+            (lambda: scintray.ResponseMap.build(detector(), direction='up'), "direction is 'up'", '"forward"'),
+            (lambda: scintray.ResponseMap.build(7), '7 is not a scene'),
+            (lambda: scintray.ResponseMap.read(b'x'), "path is b'x'"),
+            (lambda: scintray.fit(7), '7 is not a scene'),
+            (lambda: scintray.reweight('x.h5', 7, [1]), 'name is 7'),
+            (lambda: scintray.reweight('x.h5', 'LSO', ['a']), 'values is not an array'),
+            (lambda: results.analyze(settings=7), 'settings is 7'),
+            (lambda: results['a'], "point is 'a'"),
+            (lambda: results.events('a'), "point is 'a'"),
+            (lambda: scintray.open_results(3), 'path is 3'),
+            (lambda: crystal().run(photons=10**30), 'photons is 1000000'),
+            (lambda: crystal().run(output=5), 'output is 5'),
+            (lambda: crystal().simulation(quick='no'), "quick is 'no'"),
+            (lambda: crystal()[5], '5 is not the path of a key'),
+            (lambda: crystal().part('b', faces=7), 'faces is 7'),
+            (lambda: crystal().part('b', faces=[7]), 'a face is 7'),
+            (lambda: crystal().part(7), 'name is 7'),
+            (lambda: crystal().array('b', count=4, element={}), 'count is 4'),
+            (lambda: crystal().array('b', count=[2, 2], element=5), 'element is 5'),
+            (lambda: crystal().sweep('run.seed', 5), 'values is 5'),
+            (lambda: scintray.Scene.from_text(5), 'text of a scene is 5'),
+            (lambda: scintray.Scene.load(5), 'path is 5'),
+            (lambda: scintray.Scene.load('a\0b'), 'character'),
+            (lambda: scintray.quantity(2, 5), 'unit is 5'),
+            (lambda: scintray.Mesh(BOX_VERTICES, BOX_TRIANGLES, unit=5), 'unit is 5'),
+            (lambda: scintray.Deposits([0], [[0, 0, 0]], [1], length_unit=['mm']), "['mm'] is not a unit of length"),
+            (lambda: scintray.PhotonList([[0, 0, 0]], [[0, 0, 1]], [420], wavelength_unit=1), '1 is not a unit'),
+        )
+        for work, *words in cases:
+            with self.subTest(words[0]):
+                self.assertTrue(self.refused(work, *words).problems[0].hint)
+
+    def test_files_that_cannot_be_written(self):
+        mesh = scintray.Mesh(BOX_VERTICES, BOX_TRIANGLES, unit='mm')
+        for write in (crystal().save, mesh.write):
+            with self.assertRaises(scintray.SystemFailure) as caught:
+                write(self.folder / 'no/such/file')
+            self.assertIn('no/such/file cannot be written: No such file or directory; hint:', str(caught.exception))
+
+    def test_an_error_of_progress_ends_all_work_that_reports(self):
+        def progress(done, of, thing):
+            raise KeyError('from the callback')
+        scene = scintray.Scene.load(SOURCE / 'scenes/fit_depth_curve.toml')
+        heights = scintray.HeightMap.synthesize('gaussian', points=128, rms_height_um=0.3, correlation_length_um=2.0)
+        for work in (lambda: heights.table(1.8, rays=20_000, progress=progress),
+                     lambda: scintray.ResponseMap.build(detector(), photons_per_cell=50_000_000, progress=progress),
+                     lambda: scintray.fit(scene, photons=2000, progress=progress)):
+            with self.assertRaises(KeyError) as caught:
+                work()
+            self.assertIn('from the callback', str(caught.exception))
+
     def test_an_error_can_be_printed_and_its_problems_read(self):
         problem = scintray.Problem('a box of 0 mm', 'give a length', 'x.toml', 3, 7, source='box = 0')
         self.assertEqual(str(problem), 'x.toml:3:7: a box of 0 mm\n    box = 0\n  hint: give a length')

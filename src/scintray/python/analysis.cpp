@@ -206,8 +206,8 @@ py::dict analyze(RunData& data, std::size_t point, const std::optional<std::stri
         core::Problem{{header.scene_file},
                       "this result has no events to analyze",
                       "run a scene whose [source] is an event source: gamma_events, gammas or hits"});
-  {
-    const py::gil_scoped_release released;
+  WatchedWork work;
+  raise_if(work.run([&] {
     const scene_file::AnalysisSpec spec =
         settings ? scene_file::analysis_of_text(*settings, "the settings of the analysis")
                  : scene_file::analysis_of_text(header.scene_text, header.scene_file);
@@ -216,10 +216,12 @@ py::dict analyze(RunData& data, std::size_t point, const std::optional<std::stri
     setup.photon_order = events.photon_order;
     setup.light_timing = data.result.points.at(point).light_timing;
     EventCollector collector(std::move(setup));
-    for (std::size_t row = 0; row < events.size(); ++row)
+    for (std::size_t row = 0; row < events.size(); ++row) {
+      if (work.stop.load()) throw core::Cancelled("the analysis was stopped");
       collector.add(events.record(row, static_cast<std::uint32_t>(point)));
+    }
     result = collector.finish();
-  }
+  }));
   return analysis_of(result, header.parts);
 }
 

@@ -10,12 +10,6 @@ namespace {
 
 using MapPtr = std::shared_ptr<simulation::ResponseFile>;
 
-void raise_if(const py::object& error) {
-  if (error.is_none()) return;
-  PyErr_SetObject(py::type::of(error).ptr(), error.ptr());
-  throw py::error_already_set();
-}
-
 /// A scene as Python hands it over.
 struct SceneText {
   std::string text, file;

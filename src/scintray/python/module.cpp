@@ -101,11 +101,16 @@ py::object WatchedWork::run(const std::function<void()>& work) {
   try {
     future.get();
   } catch (const core::Cancelled&) {
-    if (error.is_none()) throw;
-    PyErr_SetObject(py::type::of(error).ptr(), error.ptr());
-    throw py::error_already_set();
+    raise_if(error);
+    throw;
   }
   return error;
+}
+
+void raise_if(const py::object& error) {
+  if (error.is_none()) return;
+  PyErr_SetObject(py::type::of(error).ptr(), error.ptr());
+  throw py::error_already_set();
 }
 
 }  // namespace scintray::python

@@ -180,12 +180,6 @@ class Session {
           "points count from 0"});
   }
 
-  static void raise_if(const py::object& error) {
-    if (error.is_none()) return;
-    PyErr_SetObject(py::type::of(error).ptr(), error.ptr());
-    throw py::error_already_set();
-  }
-
   simulation::Simulation& prepared(WatchedWork& work) {
     work_ = &work;
     if (!simulation_) {

@@ -118,10 +118,7 @@ py::dict goniometer_of(const GoniometerRequest& request, analysis::GoniometerSet
         slope.push_back(analysis::mean_visible_slope(sample.surface, settings.side, angle));
     }
   });
-  if (!error.is_none()) {
-    PyErr_SetObject(py::type::of(error).ptr(), error.ptr());
-    throw py::error_already_set();
-  }
+  raise_if(error);
   std::vector<core::Estimate> reflectance, transmittance, absorptance;
   py::list directions;
   for (const analysis::GoniometerReading& reading : readings) {
@@ -194,10 +191,7 @@ optics::SurfaceTable build(const topography::HeightMap& map, double inside, doub
                                       return !work.stop.load();
                                     });
   });
-  if (!error.is_none()) {
-    PyErr_SetObject(py::type::of(error).ptr(), error.ptr());
-    throw py::error_already_set();
-  }
+  raise_if(error);
   return table;
 }
 
@@ -353,8 +347,13 @@ void add_maps(py::module_& module) {
       .def("prepared", &prepared, released)
       .def("write", [](const Map& map, const std::string& path) { topography::write_gsf(path, map); })
       .def("visible_slope", [](const Map& map, double incidence_rad, std::uint64_t rays) {
-        return estimate(topography::mean_visible_slope(topography::make_height_field(map),
-                                                       optics::Side::inside, incidence_rad, rays));
+        core::Estimate slope;
+        WatchedWork work;
+        raise_if(work.run([&] {
+          slope = topography::mean_visible_slope(topography::make_height_field(map), optics::Side::inside,
+                                                 incidence_rad, rays);
+        }));
+        return estimate(slope);
       });
   module.def("read_map", &read_map, released);
   module.def("map_from", &map_from);

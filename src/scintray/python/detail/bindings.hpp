@@ -79,6 +79,9 @@ struct WatchedWork {
   bool fresh_ = false;
 };
 
+/// Raises an exception of WatchedWork::run, unless it is None.
+void raise_if(const py::object& error);
+
 /// Events of one point, in columns.
 struct EventColumns {
   std::vector<tally::ReadoutChannel> channels;

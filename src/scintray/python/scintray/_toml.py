@@ -9,7 +9,7 @@ from typing import Any, Callable, Dict, List, Sequence, Tuple, Union
 
 import numpy as np
 
-from ._tools import names_hint
+from ._checks import names_hint
 from .errors import InputError
 
 Path = Union[str, Sequence[Union[str, int]]]
@@ -89,7 +89,11 @@ def dump(data: Dict[str, Any], special: Callable[[Any, str], Any] = lambda value
 
 def steps_of(path: Path) -> List[Union[str, int]]:
     """The steps of a path: "part.crystal.surface", or a sequence where names contain dots."""
-    steps = path.split(".") if isinstance(path, str) else list(path)
+    steps: List[Union[str, int]] = []
+    if isinstance(path, str):
+        steps += path.split(".")
+    elif isinstance(path, (list, tuple)) and all(isinstance(step, (str, int)) for step in path):
+        steps += path
     if not steps or any(step == "" for step in steps):
         raise InputError(f"{path!r} is not the path of a key", 'write it as "part.crystal.surface"')
     return steps

@@ -5,11 +5,9 @@ from __future__ import annotations
 import html
 import importlib
 import math
-from typing import Any, Iterable, List, NamedTuple, Optional, Sequence
+from typing import Any, Iterable, NamedTuple, Optional, Sequence
 
-import numpy as np
-
-from .errors import InputError, MissingPackage
+from .errors import MissingPackage
 
 
 class Estimate(NamedTuple):
@@ -57,6 +55,16 @@ def axes_for(ax: Optional[Any], **subplots: Any) -> Any:
     return ax
 
 
+class Shown:
+    """Base of what notebooks show as a table of names and values, those of ``_rows()``."""
+
+    def _rows(self) -> Iterable[Sequence[Any]]:
+        raise NotImplementedError
+
+    def _repr_html_(self) -> str:
+        return html_table(type(self).__name__, ("", ""), self._rows())
+
+
 def html_table(title: str, heads: Sequence[str], rows: Iterable[Sequence[Any]], note: str = "") -> str:
     """A table for notebooks."""
     def cells(tag: str, values: Sequence[Any]) -> str:
@@ -66,51 +74,8 @@ def html_table(title: str, heads: Sequence[str], rows: Iterable[Sequence[Any]], 
     return f"<div><b>{html.escape(title)}</b><table>{cells('th', heads)}{body}</table>{note}</div>"
 
 
-def numbers(values: Any, name: str, shape: Sequence[int], unit: str = "") -> np.ndarray:
-    """Finite numbers as a contiguous array of doubles. -1 in ``shape`` stands for any length.
-
-    Raises InputError with the name, the shape found and the one expected, and the first value that is not
-    finite.
-    """
-    expected = "(" + ", ".join("n" if n < 0 else str(n) for n in shape) + ("," if len(shape) == 1 else "") + ")"
-    try:
-        array = np.ascontiguousarray(values, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        raise InputError(f"{name} is not an array of numbers: {error}",
-                         f"give an array of shape {expected}" + (f" in {unit}" if unit else "")) from error
-    if array.ndim != len(shape) or any(n >= 0 and n != m for n, m in zip(shape, array.shape)):
-        raise InputError(f"{name} has the shape {array.shape}; expected {expected}",
-                         f"give an array of shape {expected}" + (f" in {unit}" if unit else ""))
-    wrong = np.argwhere(~np.isfinite(array))
-    if len(wrong):
-        where = ", ".join(str(i) for i in wrong[0])
-        raise InputError(f"{name}[{where}] is {array[tuple(wrong[0])]}, which is not finite"
-                         + (f" ({len(wrong)} such values)" if len(wrong) > 1 else ""),
-                         "remove or replace values that are not numbers")
-    return array
-
-
-def positive_integer(value: Any, name: str) -> Optional[int]:
-    """None, or a whole number above 0."""
-    if value is None:
-        return None
-    if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < 1:
-        raise InputError(f"{name} is {value!r}; expected a whole number from 1 on", f"write {name}=1, for example")
-    return int(value)
-
-
 def dataframe(columns: Any, units: Any) -> Any:
     """A DataFrame whose ``attrs["units"]`` has the unit of each column."""
     frame = need("pandas", "a DataFrame").DataFrame(columns)
     frame.attrs["units"] = {name: unit for name, unit in units.items() if name in frame.columns}
     return frame
-
-
-def names_hint(kind: str, wanted: Any, names: Sequence[str]) -> InputError:
-    """The error of a name that does not exist, with those that do."""
-    import difflib
-    near = difflib.get_close_matches(str(wanted), list(names), 1)
-    shown: List[str] = list(names)[:8]
-    hint = (f'did you mean "{near[0]}"? ' if near else "") + "there are: " + ", ".join(shown) \
-        + (", ..." if len(names) > len(shown) else "") if names else "there are none"
-    return InputError(f'no {kind} is called "{wanted}"', hint)

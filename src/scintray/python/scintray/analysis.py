@@ -6,13 +6,13 @@ from typing import Any, Dict, List, Optional, Tuple
 
 import numpy as np
 
-from ._tools import Estimate, axes_for, dataframe, estimate, html_table
+from ._tools import Estimate, Shown, axes_for, dataframe, estimate, html_table
 from .errors import InputError
 
 __all__ = ["Analysis", "DepthCurve", "DepthOfInteraction", "FloodMap", "Histogram", "Peak", "Timing"]
 
 
-class Histogram:
+class Histogram(Shown):
     """Counts (bins) between ``edges`` (bins + 1); counts ``below`` and ``above`` them."""
 
     def __init__(self, entry: Dict[str, Any]) -> None:
@@ -29,8 +29,16 @@ class Histogram:
         ax.set_ylabel("events per bin")
         return ax
 
+    def _rows(self) -> Any:
+        return [("bins", len(self.counts)), ("from", f"{self.edges[0]:g}"), ("to", f"{self.edges[-1]:g}"),
+                ("counts", f"{self.counts.sum():g}"), ("below", f"{self.below:g}"), ("above", f"{self.above:g}")]
 
-class Peak:
+    def __repr__(self) -> str:
+        return (f"Histogram({len(self.counts)} bins from {self.edges[0]:g} to {self.edges[-1]:g}, "
+                f"{self.counts.sum():g} counts)")
+
+
+class Peak(Shown):
     """A fitted Gaussian peak: ``position``, ``sigma``, ``events`` and ``relative_fwhm`` with their errors where
     it ``converged``, nan where not; ``p_value`` of the fit; ``histogram`` of the bins fitted and ``expected`` counts in them.
 
@@ -59,6 +67,13 @@ class Peak:
         self._draw(ax)
         return ax
 
+    def _rows(self) -> Any:
+        state = [("status", self.status), ("reason", self.reason)] if self.status else []
+        if not self.converged:
+            return state or [("fit", "not converged")]
+        return [("position", self.position), ("sigma", self.sigma), ("resolution (FWHM)", self.relative_fwhm),
+                ("events", self.events), ("p-value of the fit", f"{self.p_value:.3g}")] + state
+
     def __repr__(self) -> str:
         if not self.converged:
             return f"Peak({self.status or 'not converged'})"
@@ -83,11 +98,15 @@ class Timing(Peak):
         ax.set_title(f"{1e3 * self.fwhm_ns.value:.0f} ± {1e3 * self.fwhm_ns.error:.0f} ps FWHM")
         return ax
 
+    def _rows(self) -> Any:
+        return [("FWHM (ns)", self.fwhm_ns), ("of a Gaussian (ns)", self.gaussian_fwhm),
+                ("between quantiles (ns)", self.quantile_fwhm), ("mean (ns)", self.mean), ("differences", self.count)]
+
     def __repr__(self) -> str:
         return f"Timing({self.fwhm_ns} ns FWHM from {self.count} differences)"
 
 
-class DepthCurve:
+class DepthCurve(Shown):
     """Light against depth: ``depth_mm``, ``count``, ``value`` (n, 2: with errors), ``relative`` (n, 2),
     ``from_peak`` (photopeak positions, else means), ``slope_per_mm`` (relative change per mm)."""
 
@@ -117,11 +136,15 @@ class DepthCurve:
         ax.set_ylabel(f"{'photopeak' if self.from_peak else 'mean light'} ({self._unit})")
         return ax
 
+    def _rows(self) -> Any:
+        rows = [(f"light at {z:.4g} mm ({self._unit})", estimate(light)) for z, light in zip(self.depth_mm, self.value)]
+        return rows + [("relative slope (1/mm)", self.slope_per_mm)]
+
     def __repr__(self) -> str:
         return f"DepthCurve({len(self.depth_mm)} depths, {self.slope_per_mm} of the light per mm)"
 
 
-class DepthOfInteraction:
+class DepthOfInteraction(Shown):
     """Depth of interaction from the light at two ends: ``residual`` (estimated minus true, mm), and against
     ``depth_mm`` the ``bias_mm`` and ``fwhm_mm`` (n, 2: with errors)."""
 
@@ -147,11 +170,15 @@ class DepthOfInteraction:
         ax.legend()
         return ax
 
+    def _rows(self) -> Any:
+        rows = [(f"FWHM at {z:.4g} mm (mm)", estimate(width)) for z, width in zip(self.depth_mm, self.fwhm_mm)]
+        return rows + [("FWHM over all depths (mm)", self.fwhm)]
+
     def __repr__(self) -> str:
         return f"DepthOfInteraction({self.fwhm} mm FWHM)"
 
 
-class FloodMap:
+class FloodMap(Shown):
     """Event positions by Anger logic: ``counts`` (rows, columns; the first row lowest) over ``extent_mm``
     (x low, x high, y low, y high), ``peak_of_cell``, ``peak_mm`` (n, 2), ``peak_events``, ``peak_part`` (names),
     ``share_right`` (events whose peak belongs to the part of the interaction), ``peak_to_valley``."""
@@ -186,6 +213,11 @@ class FloodMap:
         ax.figure.colorbar(image, ax=ax, label="events per cell", shrink=0.8, extend="max")
         return ax
 
+    def _rows(self) -> Any:
+        return [("peaks", len(self.peak_mm)), ("crystals", len(self.parts)), ("events in the right peak", self.share_right),
+                ("peak to valley", f"{self.peak_to_valley:.4g}"),
+                ("peak to valley, the worst", f"{self.worst_peak_to_valley:.4g}")]
+
     def __repr__(self) -> str:
         return f"FloodMap({len(self.peak_mm)} peaks, {self.share_right} right, peak to valley {self.peak_to_valley:.3g})"
 
@@ -200,6 +232,16 @@ class Analysis:
     detectors), ``ctr_first_photon``, ``end_difference``, and the arrays of ``timing_against_depth`` and
     ``ctr_by_order`` in dictionaries.
     """
+
+    events: int
+    pulses: int
+    selected: int
+    selection: str
+    light_unit: str
+    left_out: List[str]
+    timing_against_depth: Optional[Dict[str, Any]]
+    ctr_by_order: Optional[Dict[str, Any]]
+    ctr_by_average: Optional[Dict[str, Any]]
 
     def __init__(self, entry: Dict[str, Any]) -> None:
         for name in ("events", "pulses", "selected", "selection", "light_unit", "left_out", "timing_against_depth",
@@ -244,15 +286,44 @@ class Analysis:
             ax.annotate(f"{self.spectrum.counts[highest]:.0f} events", (self.spectrum.edges[highest + 1], 1.33 * peak),
                         xytext=(4, 0), textcoords="offset points", fontsize="small", va="center")
 
+    def plot_timing_against_depth(self, ax: Optional[Any] = None) -> Any:
+        """Draws the coincidence timing resolution and the mean time of events against their depth."""
+        if self.timing_against_depth is None:
+            raise InputError("there is no timing against depth: " + ("; ".join(self.left_out) or "no slices"),
+                             "give [analysis] a depth with slices, and run more events")
+        ax, of = axes_for(ax), self.timing_against_depth
+        ax.errorbar(of["depth_mm"], *(1e3 * of["ctr_fwhm_ns"]).T, fmt="o-", markersize=4, capsize=2, label="CTR (FWHM)")
+        ax.errorbar(of["depth_mm"], *(1e3 * of["mean_ns"]).T, fmt="s-", markersize=4, capsize=2, label="mean time")
+        ax.set_xlabel("depth (mm)")
+        ax.set_ylabel("time (ps)")
+        ax.legend()
+        return ax
+
+    def plot_ctr_by_order(self, ax: Optional[Any] = None) -> Any:
+        """Draws the coincidence timing resolution against the number of the photon that sets the time, and that of the
+        mean of the first photons up to that number."""
+        if self.ctr_by_order is None:
+            raise InputError("there are no times of n-th photons", 'set scene["readout.photon_order"] = [1, 2, 3, 5, 10]')
+        ax = axes_for(ax)
+        for of, label in ((self.ctr_by_order, "n-th photon"), (self.ctr_by_average, "mean of the first n")):
+            if of is not None and len(of["n"]):
+                ax.errorbar(of["n"], *(1e3 * of["ctr_fwhm_ns"]).T, fmt="o-", markersize=4, capsize=2, label=label)
+        ax.set_xlabel("n")
+        ax.set_ylabel("CTR (ps FWHM)")
+        ax.legend()
+        return ax
+
     def plot(self) -> Any:
-        """A figure with every analysis there is: spectrum, light against depth, depth of interaction, flood map and
-        timing. Returns the figure of matplotlib."""
+        """A figure with every analysis there is: spectrum, light against depth, depth of interaction, flood map,
+        timing, that against depth, and by the n-th photon. Returns the figure of matplotlib."""
         from ._tools import need
         draw = [(name, plot) for name, plot in (
             ("spectrum", self.plot_spectrum if self.spectrum is not None else None),
             ("flood", self.flood and self.flood.plot),
             ("depth", self.light_against_depth and self.light_against_depth.plot),
-            ("doi", self.doi and self.doi.plot), ("ctr", self.ctr and self.ctr.plot)) if plot]
+            ("doi", self.doi and self.doi.plot), ("ctr", self.ctr and self.ctr.plot),
+            ("timing", self.plot_timing_against_depth if self.timing_against_depth is not None else None),
+            ("orders", self.plot_ctr_by_order if self.ctr_by_order is not None else None)) if plot]
         if not draw:
             raise InputError("there is nothing to draw: " + "; ".join(self.left_out), "run more events")
         rows = (len(draw) + 1) // 2

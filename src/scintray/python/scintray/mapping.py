@@ -4,24 +4,22 @@ from __future__ import annotations
 
 import os
 import tempfile
-from typing import Any, Dict, List, Optional, Sequence, Union
+from typing import Any, Dict, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
 from . import _core
-from ._tools import Estimate, axes_for, dataframe, estimate, html_table, numbers, positive_integer
+from ._checks import (flag, names_hint, number, numbers, one_of, path_text, positive_integer, text_of, whole,
+                      whole_or_none)
+from ._tools import Estimate, Shown, axes_for, dataframe, estimate, html_table
 from .errors import Cancelled, InputError
 from .results import Results
-from .scene import Scene
+from .scene import Scene, as_scene
 from .simulation import Progress, watched, with_source
 
-__all__ = ["Fit", "FitParameter", "ResponseMap", "fit", "reweight"]
+__all__ = ["Fit", "FitParameter", "ResponseMap", "ReweightedLight", "fit", "reweight"]
 
 PathLike = Union[str, "os.PathLike[str]"]
-
-
-def _scene(scene: Union[Scene, PathLike]) -> Scene:
-    return scene if isinstance(scene, Scene) else Scene.load(scene)
 
 
 def _guarded(scene: Scene, work: Any) -> Any:
@@ -62,27 +60,30 @@ class ResponseMap:
         "backward" from the channels, which needs surfaces that pass light both ways alike, or "automatic": backward
         where that is so. Raises InputError; Cancelled.
         """
-        pitch = float(numbers([pitch_mm], "pitch_mm", (1,), "mm")[0])
-        if pitch <= 0:
-            raise InputError(f"pitch_mm is {pitch}; expected above 0", "give the edge of a cell in mm")
-        return cls(_guarded(_scene(scene), lambda text, file: watched(progress, lambda call: _core.build_response(
-            text, file, pitch, positive_integer(photons_per_cell, "photons_per_cell"),
-            positive_integer(delays, "delays"), direction,
-            positive_integer(photons_per_channel, "photons_per_channel"), positive_integer(threads, "threads"), seed, call))))
+        pitch = number(pitch_mm, "pitch_mm", "mm", above=0.0)
+        one_of(direction, "direction", ("automatic", "forward", "backward"))
+        start = whole_or_none(seed, "seed")
+        return cls(_guarded(as_scene(scene), lambda text, file: watched(progress, lambda call: _core.build_response(
+            text, file, pitch, whole(photons_per_cell, "photons_per_cell", least=1, most=2**32 - 1),
+            whole(delays, "delays", least=1, most=2**32 - 1), direction,
+            whole(photons_per_channel, "photons_per_channel", least=1), positive_integer(threads, "threads"), start,
+            call))))
 
     @classmethod
     def read(cls, path: PathLike) -> "ResponseMap":
         """The map of a file. Raises InputError."""
-        made = cls(_core.read_response(os.fspath(path)))
-        made._file = os.path.abspath(os.fspath(path))
+        made = cls(_core.read_response(path_text(path)))
+        made._file = os.path.abspath(path_text(path))
         return made
 
     def write(self, path: PathLike) -> None:
         """Writes the map (HDF5)."""
-        self._core.write(os.fspath(path))
+        self._core.write(path_text(path))
 
     def probability(self, part: str) -> np.ndarray:
         """Share of the light of each cell that each channel detects (x, y, z, channel); nan in empty cells."""
+        if part not in self.parts:
+            raise names_hint("part of the map", part, self.parts)
         grid = self.grids[part]
         emitted = grid["photons"].astype(float)[..., np.newaxis]
         if "probability" in grid:
@@ -100,9 +101,9 @@ class ResponseMap:
             if self._file is None:
                 self.write(os.path.join(folder, "map.h5"))
             source = self._file if self._file is not None else os.path.join(folder, "map.h5")
-            target = os.path.join(folder, "results.h5") if output is None else os.fspath(output)
-            data, raised = _guarded(_scene(scene), lambda text, file: watched(progress, lambda call: _core.run_mapped(
-                text, file, source, positive_integer(threads, "threads"), seed, positive_integer(events, "events"),
+            target = os.path.join(folder, "results.h5") if output is None else path_text(output, "output")
+            data, raised = _guarded(as_scene(scene), lambda text, file: watched(progress, lambda call: _core.run_mapped(
+                text, file, source, positive_integer(threads, "threads"), whole_or_none(seed, "seed"), positive_integer(events, "events"),
                 target, output is not None, call)))
         if isinstance(raised, KeyboardInterrupt):
             raise Cancelled("stopped by Ctrl-C", Results(data)) from raised
@@ -115,6 +116,8 @@ class ResponseMap:
         ax = axes_for(ax)
         part = part or self.parts[0]
         share = self.probability(part)
+        if channel is not None:
+            whole(channel, "channel", most=len(self.channels) - 1)
         share = share.sum(axis=-1) if channel is None else share[..., channel]
         low, pitch, cells = self.grids[part]["low_mm"], self.grids[part]["pitch_mm"], share.shape
         image = ax.imshow(share[:, cells[1] // 2, :].T, origin="lower", aspect="auto",
@@ -134,15 +137,32 @@ class ResponseMap:
         return html_table("Response map", ("part", "cells", "mean detected share"), rows)
 
 
-class FitParameter:
+class FitParameter(Shown):
     """A fitted parameter: ``name``, ``value`` with its whole error, ``unit``, ``monte_carlo_error`` (part of it),
     ``interval`` (one standard error of its ``variable``, "value" or "inverse", to both sides), ``in_variable`` (the
     value or its inverse, with that error), ``start``, ``low``, ``high``, ``at_bound``, ``determined``."""
+
+    name: str
+    unit: str
+    monte_carlo_error: float
+    interval: Tuple[float, float]
+    variable: str
+    start: float
+    low: float
+    high: float
+    at_bound: bool
+    determined: bool
 
     def __init__(self, entry: Dict[str, Any]) -> None:
         self.__dict__.update(entry)
         self.value: Estimate = estimate(entry["value"])
         self.in_variable: Estimate = estimate(entry["in_variable"])
+
+    def _rows(self) -> Any:
+        return [(self.name, f"{self.value} {self.unit}".rstrip()), ("of it by Monte Carlo", f"{self.monte_carlo_error:.3g}"),
+                ("interval", " to ".join(f"{end:.6g}" for end in self.interval)),
+                ("bounds", f"{self.low:g} to {self.high:g}"), ("at a bound", self.at_bound),
+                ("determined", self.determined)]
 
     def __repr__(self) -> str:
         return f"FitParameter({self.name} = {self.value} {self.unit})".replace(" )", ")")
@@ -152,6 +172,23 @@ class Fit:
     """A fit of a scene to a measurement: ``end`` ("converged", "not_converged", "stopped"), ``parameters`` (by name),
     ``correlation``, ``scale``, ``x``, ``measured``, ``curve`` and ``start_curve`` (n, 2: with errors), ``residual``,
     ``chi2``, ``degrees``, ``p_value``, ``warnings``."""
+
+    title: str
+    end: str
+    quantity: str
+    position: str
+    position_unit: str
+    correlation: np.ndarray
+    x: np.ndarray
+    measured: np.ndarray
+    curve: np.ndarray
+    start_curve: np.ndarray
+    residual: np.ndarray
+    chi2: float
+    degrees: float
+    p_value: float
+    warnings: List[str]
+    steps: int
 
     def __init__(self, entry: Dict[str, Any]) -> None:
         self.__dict__.update(entry)
@@ -191,25 +228,65 @@ def fit(scene: Union[Scene, PathLike], *, threads: Optional[int] = None, photons
 
     Raises InputError for a scene without [fit] and for every mistake of it; Cancelled.
     """
-    return Fit(_guarded(_scene(scene), lambda text, file: watched(progress, lambda call: _core.fit_scene(
+    return Fit(_guarded(as_scene(scene), lambda text, file: watched(progress, lambda call: _core.fit_scene(
         text, file, positive_integer(threads, "threads"), positive_integer(photons, "photons"),
-        positive_integer(events, "events"), call, None if output is None else os.fspath(output)))))
+        positive_integer(events, "events"), call, None if output is None else path_text(output, "output")))))
+
+
+class ReweightedLight(List[Dict[str, Any]]):
+    """Detected light for other values of a property: a list of dictionaries, as ``reweight`` describes them."""
+
+    def __init__(self, entries: Sequence[Dict[str, Any]], label: str) -> None:
+        super().__init__(entries)
+        self.label = label
+
+    def to_dataframe(self) -> Any:
+        """A DataFrame with a row an entry; units in ``attrs["units"]``."""
+        columns: Dict[str, Any] = {name: [entry[name] for entry in self] for name in
+                                   ("point", "value", "effective_photons", "valid", "reason")}
+        for name in ("traced", "detected", "relative"):
+            columns[name] = [entry[name].value for entry in self]
+            columns[f"{name}_error"] = [entry[name].error for entry in self]
+        return dataframe(columns, {name: "1" for name in columns if name not in ("value", "valid", "reason")})
+
+    def plot(self, ax: Optional[Any] = None) -> Any:
+        """Draws the detected share against the values, a curve for each point; open circles where the histories do not
+        reach (``valid`` is False)."""
+        ax = axes_for(ax)
+        for point in sorted({entry["point"] for entry in self}):
+            rows = sorted((e for e in self if e["point"] == point), key=lambda e: float(e["value"]))
+            bars = ax.errorbar([e["value"] for e in rows], [e["detected"].value for e in rows],
+                               [e["detected"].error for e in rows], fmt="o-", markersize=4, capsize=2,
+                               label=f"point {point}")
+            out = [e for e in rows if not e["valid"]]
+            ax.plot([e["value"] for e in out], [e["detected"].value for e in out], "o", markersize=9,
+                    markerfacecolor="none", color=bars[0].get_color())
+        ax.set_xlabel(self.label)
+        ax.set_ylabel("detected share of the emitted photons")
+        if len({entry["point"] for entry in self}) > 1:
+            ax.legend()
+        return ax
+
+    def _repr_html_(self) -> str:
+        rows = [(e["point"], f"{e['value']:g}", str(e["detected"]), str(e["relative"]), e["reason"]) for e in self]
+        return html_table("Reweighted light", ("point", self.label, "detected", "relative to the traced", ""), rows)
 
 
 def reweight(path: PathLike, name: str, values: Sequence[float], *, property: str = "absorption_length",
-             factors: bool = False) -> Any:
+             factors: bool = False) -> ReweightedLight:
     """Detected light for other absorption lengths (mm) of a medium, or other reflectances of a reflector, from the
     histories of a results file (scene["run.photon_history"] = True), without tracing (docs/reweighting.md).
 
-    With ``factors`` the values are factors on the traced ones. Returns a list of dictionaries: ``point``, ``value``,
+    With ``factors`` the values are factors on the traced ones. Returns a list, with ``plot()``, of dictionaries: ``point``, ``value``,
     ``traced`` and ``detected`` shares (``Estimate``), ``relative``, ``effective_photons``, ``valid``, ``reason``.
     Raises InputError without histories, for unknown names, and for values out of range.
     """
-    if property not in ("absorption_length", "reflectance"):
-        raise InputError(f"property is {property!r}", 'it is "absorption_length" or "reflectance"')
+    one_of(property, "property", ("absorption_length", "reflectance"))
     wanted = numbers(np.atleast_1d(values), "values", (-1,))
-    entries = _core.reweight(os.fspath(path), property, name, factors, wanted.tolist())
+    entries = _core.reweight(path_text(path), property, text_of(name, "name"), flag(factors, "factors"), wanted.tolist())
     for entry in entries:
         for key in ("traced", "detected", "relative"):
             entry[key] = estimate(entry[key])
-    return entries
+    what = property.replace("_", " ") + f" of {name}"
+    unit = "" if property == "reflectance" else " (mm)"
+    return ReweightedLight(entries, f"factor on the {what}" if factors else what + unit)

@@ -3,19 +3,23 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Dict, Iterator, List, Optional, Sequence, Union
+from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Optional, Sequence, Union
 
 import numpy as np
 
 from . import _core
-from ._tools import Estimate, axes_for, dataframe, estimate, html_table, names_hint, need
+from ._checks import names_hint, path_text, text_of
+from ._tools import Estimate, Shown, axes_for, dataframe, estimate, html_table, need
 from .errors import ClosedError, InputError
 from .tallies import Moments, Tally
+
+if TYPE_CHECKING:
+    from .analysis import Analysis
 
 __all__ = ["Events", "Point", "Results", "open_results"]
 
 
-class Events:
+class Events(Shown):
     """The events of a point, in columns: arrays over the library's memory, read-only.
 
     Per event: ``event`` (number), ``energy_keV`` (deposited in scintillators), ``escaped_keV``,
@@ -30,6 +34,24 @@ class Events:
     _PER_EVENT = ("event", "energy_keV", "escaped_keV", "non_scintillating_keV", "part", "emitted", "detected")
     _UNITS = {"energy_keV": "keV", "escaped_keV": "keV", "non_scintillating_keV": "keV", "x_mm": "mm", "y_mm": "mm",
               "z_mm": "mm", "event": "1", "emitted": "1", "detected": "1", "light": "photoelectrons"}
+
+    event: np.ndarray
+    energy_keV: np.ndarray
+    escaped_keV: np.ndarray
+    non_scintillating_keV: np.ndarray
+    position_mm: np.ndarray
+    part: np.ndarray
+    emitted: np.ndarray
+    detected: np.ndarray
+    channel_detected: np.ndarray
+    first_ns: np.ndarray
+    charge: np.ndarray
+    amplitude: np.ndarray
+    time_ns: np.ndarray
+    order_ns: np.ndarray
+    waveform: np.ndarray
+    photon_order: List[int]
+    channels: Dict[str, Any]
 
     def __init__(self, entry: Dict[str, Any], parts: Sequence[str]) -> None:
         self.__dict__.update(entry)
@@ -60,7 +82,7 @@ class Events:
     def to_xarray(self) -> Any:
         """A Dataset over ``event`` and ``channel``, with units as attributes."""
         xarray = need("xarray", "to_xarray()")
-        data = {}
+        data: Dict[str, Any] = {}
         for name in self._PER_EVENT[1:]:
             data[name] = ("event", getattr(self, name), {"units": "keV" if name.endswith("keV") else "1"})
         data["position"] = (("event", "axis"), self.position_mm, {"units": "mm"})
@@ -81,6 +103,16 @@ class Events:
     def __repr__(self) -> str:
         return f"Events({len(self)} events, {len(self.channels['name'])} channels)"
 
+    def _rows(self) -> Any:
+        unit = "photoelectrons" if self.has_readout else "photons"
+        rows: List[Any] = [("events", len(self)), ("channels", len(self.channels["name"]))]
+        if len(self):
+            rows += [("energy in scintillators, mean (keV)", f"{self.energy_keV.mean():.6g}"),
+                     ("emitted photons, mean", f"{self.emitted.mean():.6g}"),
+                     ("detected photons, mean", f"{self.detected.mean():.6g}"),
+                     (f"light, mean ({unit})", f"{self.light.mean():.6g}")]
+        return rows
+
 
 class Point:
     """Results of one point of a sweep (a run without a sweep has one).
@@ -91,6 +123,24 @@ class Point:
     ``detected_path_histogram`` (10 mm bins), ``segments``, ``scatterings``, ``energy`` (balance of an event source,
     keV), ``sensor_faces`` (columns), ``tallies`` (by name), ``wall_seconds``, ``complete``.
     """
+
+    photons: int
+    photons_requested: int
+    photons_traced: int
+    birth_efficiency: float
+    complete: bool
+    fate_count: np.ndarray
+    detected_path_histogram: np.ndarray
+    scatterings: int
+    segments: int
+    wall_seconds: float
+    cut_bias_bound: float
+    energy: Dict[str, Any]
+    sensor_faces: Dict[str, np.ndarray]
+    interactions: Moments
+    detected_path_mm: Moments
+    detected_time_ns: Moments
+    detected_interactions: Moments
 
     def __init__(self, entry: Dict[str, Any], header: Dict[str, Any]) -> None:
         self.parameters: Dict[str, str] = dict(zip(header["sweep_keys"], entry["parameters"]))
@@ -144,8 +194,12 @@ class Point:
         return f"Point({label + ': ' if label else ''}detected {self.detected} of {self.photons} photons)"
 
     def _repr_html_(self) -> str:
+        return self.html()
+
+    def html(self, before: str = "") -> str:
+        """The table that notebooks show, with a text before its title."""
         rows = [(name, int(n), str(f)) for (name, f), n in zip(self.fates.items(), self.fate_count) if n]
-        return html_table(", ".join(f"{k} = {v}" for k, v in self.parameters.items()) or "Fates of the photons",
+        return html_table(before + (", ".join(f"{k} = {v}" for k, v in self.parameters.items()) or "Fates of the photons"),
                           ("fate", "photons", "share"), rows)
 
 
@@ -184,7 +238,12 @@ class Results:
     def __len__(self) -> int:
         return len(self._points)
 
-    def __getitem__(self, number: int) -> Point:
+    def __getitem__(self, number: Any) -> Any:
+        """The ``Point`` of a number, from the end where it is negative, or the list of those of a slice."""
+        if isinstance(number, slice):
+            return [self[i] for i in range(*number.indices(len(self)))]
+        if isinstance(number, bool) or not isinstance(number, (int, np.integer)):
+            raise InputError(f"the point is {number!r}; expected a whole number", "points count from 0")
         if not -len(self) <= number < len(self):
             raise IndexError(f"there is no point {number}; the results have {len(self)}")
         number %= len(self)
@@ -238,12 +297,13 @@ class Results:
                              'use a source of the type "gamma_events", "gammas", "hits" or "photon_list"')
         return Events(entry, self.parts)
 
-    def analyze(self, point: int = 0, settings: Optional[str] = None) -> Any:
+    def analyze(self, point: int = 0, settings: Optional[str] = None) -> "Analysis":
         """The ``Analysis`` of the events of a point: spectrum, photopeak, light against depth, depth of interaction,
         flood map, timing. ``settings`` is a text with [analysis] (docs/analysis.md) in place of the scene's."""
         from .analysis import Analysis
         self[point]
-        return Analysis(_core.analyze(self._open(), point % len(self), settings))
+        own = None if settings is None else text_of(settings, "settings")
+        return Analysis(_core.analyze(self._open(), point % len(self), own))
 
     def to_dataframe(self) -> Any:
         """A DataFrame with a row a point: swept keys, photons, share and error of each fate."""
@@ -304,7 +364,7 @@ class Results:
 
     def _repr_html_(self) -> str:
         if len(self) == 1:
-            return self[0]._repr_html_().replace("<div><b>", f"<div><b>{self.title}: ", 1)
+            return self[0].html(f"{self.title}: ")
         rows = [(*p.parameters.values(), p.photons, str(p.detected)) for p in self]
         return html_table(self.title, (*self.sweep_keys, "photons", "detected"), rows,
                           "" if self.complete else f"partial: {self.partial_reason}")
@@ -326,4 +386,4 @@ def open_results(path: Union[str, "os.PathLike[str]"]) -> Results:
 
     Raises InputError for a file that is missing, is not a result, or is of an unknown version.
     """
-    return Results(_core.open_results(os.fspath(path)))
+    return Results(_core.open_results(path_text(path)))

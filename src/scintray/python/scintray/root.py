@@ -9,6 +9,7 @@ from typing import Any, Dict, List, Mapping, Optional, Union
 
 import numpy as np
 
+from ._checks import path_text, text_of
 from .errors import InputError, MissingPackage
 from .results import Results
 from .simulation import Deposits
@@ -66,16 +67,17 @@ def read_root_hits(path: Union[str, "os.PathLike[str]"], tree: str = "Hits", *,
     length_unit, energy_unit : of the tree; mm and MeV, as GATE and Geant4 write
     time_unit : of the tree; None: s for GATE 9, ns for GATE 10 and for ``columns``
     """
+    path, tree = path_text(path), text_of(tree, "tree")
     uproot = _uproot("read_root_hits()")
-    with uproot.open(os.fspath(path)) as file:
+    with uproot.open(path) as file:
         trees = sorted({str(name).split(";")[0] for name in file.keys()})
         if tree not in trees:
             near = difflib.get_close_matches(tree, trees, 1)
-            raise InputError(f"{os.fspath(path)} has no tree {tree!r}",
+            raise InputError(f"{path} has no tree {tree!r}",
                              (f"did you mean {near[0]!r}? " if near else "") + "it has " + ", ".join(trees))
         hits = file[tree]
         branches = _branches(hits)
-        where = f"the tree {tree!r} of {os.fspath(path)}"
+        where = f"the tree {tree!r} of {path}"
         if columns is None:
             layout = _layout_of(branches, where)
             names = {name: branch for name, branch in layout["columns"].items() if branch in branches}
@@ -97,7 +99,7 @@ def read_root_hits(path: Union[str, "os.PathLike[str]"], tree: str = "Hits", *,
         pairs = np.column_stack([np.asarray(read[run]), event])
         event = np.unique(pairs, axis=0, return_inverse=True)[1].reshape(-1)
     position = np.column_stack([data.pop(axis) for axis in "xyz"])
-    moved = [data.pop(name, None) for name in ("dx", "dy", "dz")]
+    moved: List[Any] = [data.pop(name, None) for name in ("dx", "dy", "dz")]
     if any(column is None for column in moved) and not all(column is None for column in moved):
         raise InputError("columns names one or two of dx, dy, dz", "name all three, or none")
     return Deposits(event, position, data.pop("energy"), data.pop("time", None),
@@ -110,6 +112,7 @@ def write_root_photons(results: Results, path: Union[str, "os.PathLike[str]"], t
 
     Returns the number of photons. Raises MissingPackage without uproot, and as ``Results.photons`` does.
     """
+    path, tree = path_text(path), text_of(tree, "tree")
     uproot = _uproot("write_root_photons()")
     photons = results.photons
     branches: Dict[str, Any] = {}
@@ -121,6 +124,6 @@ def write_root_photons(results: Results, path: Union[str, "os.PathLike[str]"], t
             for axis, letter in enumerate("xyz"):
                 own = f"direction_{letter}" if name == "direction" else f"{letter}_mm"
                 branches[own] = np.ascontiguousarray(column[:, axis])
-    with uproot.recreate(os.fspath(path)) as file:
+    with uproot.recreate(path) as file:
         file[tree] = branches
     return len(photons)

@@ -15,14 +15,16 @@ from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 import numpy as np
 
 from . import _toml
-from ._tools import html_table, numbers
-from .errors import InputError
+from ._checks import listed, numbers, one_of, path_of, text_of
+from ._tools import Shown, axes_for, html_table
+from .errors import InputError, SystemFailure
 
 try:
     import tomllib as _reader
 except ImportError:  # Python before 3.11
     import tomli as _reader  # type: ignore[no-redef]
 
+PLANES = ("xy", "xz", "yz")
 _BODIES = ("part", "array", "light_guide")
 
 __all__ = ["Mesh", "Scene", "quantity"]
@@ -35,6 +37,7 @@ def quantity(value: Any, unit: str) -> Any:
 
     Numbers keep all their digits. Raises InputError for a number that is not finite.
     """
+    text_of(unit, "unit")
     array = np.asarray(value)
     if array.ndim:
         return [quantity(element, unit) for element in array]
@@ -46,7 +49,7 @@ def quantity(value: Any, unit: str) -> Any:
     return f"{number!r} {unit}"
 
 
-class Mesh:
+class Mesh(Shown):
     """A triangle mesh of a part, from arrays.
 
     Parameters
@@ -60,6 +63,7 @@ class Mesh:
     """
 
     def __init__(self, vertices: Any, triangles: Any, unit: str) -> None:
+        text_of(unit, "unit")
         self.vertices = numbers(vertices, "vertices", (-1, 3), unit)
         corners = numbers(triangles, "triangles", (-1, 3))
         if len(corners) == 0:
@@ -74,8 +78,6 @@ class Mesh:
             row, column = np.argwhere(outside)[0]
             raise InputError(f"triangles[{row}, {column}] is {corners[row, column]:.0f}; there are "
                              f"{len(self.vertices)} vertices", "indices count from 0")
-        if not isinstance(unit, str):
-            raise InputError(f"the unit of a mesh is {unit!r}; expected text", 'write unit="mm"')
         self.triangles = np.ascontiguousarray(corners, dtype=np.int32)
         self.unit = unit
 
@@ -88,10 +90,18 @@ class Mesh:
         faces = np.empty(len(self.triangles), dtype=[("count", "u1"), ("corners", "<i4", 3)])
         faces["count"] = 3
         faces["corners"] = self.triangles
-        with open(path, "wb") as file:
-            file.write(header.encode("ascii"))
-            file.write(self.vertices.astype("<f8").tobytes())
-            file.write(faces.tobytes())
+        _write(path_of(path), header.encode("ascii") + self.vertices.astype("<f8").tobytes() + faces.tobytes())
+
+    def plot(self, ax: Optional[Any] = None, *, plane: str = "xz") -> Any:
+        """Draws the edges between faces, projected onto a plane ("xy", "xz" or "yz"), in the mesh's unit."""
+        ax = axes_for(ax)
+        draw_edges(ax, one_of(plane, "plane", PLANES), self.vertices, self.triangles, self.unit)
+        return ax
+
+    def _rows(self) -> Any:
+        low, high = self.vertices.min(axis=0), self.vertices.max(axis=0)
+        return [("vertices", len(self.vertices)), ("triangles", len(self.triangles))] \
+            + [(f"{axis} ({self.unit})", f"{low[k]:.6g} to {high[k]:.6g}") for k, axis in enumerate("xyz")]
 
     def _name(self) -> str:
         content = hashlib.sha256(self.vertices.tobytes() + self.triangles.tobytes()).hexdigest()
@@ -128,7 +138,7 @@ class Scene:
     def load(cls, path: Union[str, "os.PathLike[str]"]) -> "Scene":
         """The scene of a file. Raises InputError for a file that is missing or not TOML; its keys are checked
         when it is used."""
-        file = Path(path)
+        file = path_of(path)
         try:
             text = file.read_text(encoding="utf-8")
         except OSError as error:
@@ -143,8 +153,9 @@ class Scene:
     def from_text(cls, text: str, folder: Union[str, "os.PathLike[str]", None] = None) -> "Scene":
         """The scene of a TOML text; relative paths in it count from ``folder`` (the working folder)."""
         scene = cls()
+        text_of(text, "the text of a scene")
         if folder is not None:
-            scene._folder = Path(folder)
+            scene._folder = path_of(folder, "folder")
         try:
             scene.data = _reader.loads(text)
         except _reader.TOMLDecodeError as error:
@@ -191,6 +202,7 @@ class Scene:
     # Building
 
     def _add(self, table: str, name: str, keys: Dict[str, Any]) -> "Scene":
+        text_of(name, "name")
         entries = self.data.setdefault(table, [])
         if any(entry.get("name") == name for entry in entries):
             raise InputError(f'there is a {table} "{name}" already', "give each a name of its own")
@@ -205,11 +217,13 @@ class Scene:
 
         >>> scene.part("crystal", box=["2 mm", "2 mm", "20 mm"], medium="LYSO", surface="polished")
         """
-        return self._add("part", name, {"mesh": mesh, **keys, "face": [dict(face) for face in faces] or None})
+        rules = [_table(face, "a face") for face in listed(faces, "faces", "dictionaries")]
+        return self._add("part", name, {"mesh": mesh, **keys, "face": rules or None})
 
     def array(self, name: str, *, count: Sequence[int], element: Mapping[str, Any], **keys: Any) -> "Scene":
         """Adds an [[array]] of ``count`` columns and rows of one ``element`` (docs/builders.md). Returns the scene."""
-        return self._add("array", name, {"count": list(count), **keys, "element": dict(element)})
+        return self._add("array", name, {"count": listed(count, "count", "two whole numbers"), **keys,
+                                         "element": _table(element, "element")})
 
     def light_guide(self, name: str, **keys: Any) -> "Scene":
         """Adds a [[light_guide]] (docs/builders.md). Returns the scene."""
@@ -221,17 +235,17 @@ class Scene:
         kinds = ("media", "surfaces", "sensors", "reflectors")
         if kind not in kinds:
             raise InputError(f"{kind!r} is not a kind of definitions", "it is one of " + ", ".join(kinds))
-        self.data.setdefault(kind, {})[name] = keys
+        self.data.setdefault(kind, {})[text_of(name, "name")] = keys
         return self
 
     def tally(self, type: str, **keys: Any) -> "Scene":
         """Adds a [[tally]] (docs/tallies.md). Returns the scene."""
-        self.data.setdefault("tally", []).append({"type": type, **keys})
+        self.data.setdefault("tally", []).append({"type": text_of(type, "type"), **keys})
         return self
 
     def sweep(self, key: str, values: Sequence[Any], label: Optional[str] = None) -> "Scene":
         """Adds a [[sweep]] over the values of a key. Returns the scene."""
-        entry = {"key": key, "values": list(values)}
+        entry: Dict[str, Any] = {"key": text_of(key, "key"), "values": listed(values, "values", "values of the key")}
         self.data.setdefault("sweep", []).append(entry if label is None else {**entry, "label": label})
         return self
 
@@ -292,11 +306,12 @@ class Scene:
     def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
         """Writes the scene as a file, with the files of its meshes beside it, for the program ``scintray``.
 
-        Relative paths in the scene stay as they are, and so must count from the new folder.
+        Relative paths in the scene stay as they are, and so must count from the new folder. Raises SystemFailure for
+        a file that cannot be written.
         """
-        file = Path(path)
+        file = path_of(path)
         text = self._text_with(file.parent)
-        file.write_text(text, encoding="utf-8")
+        _write(file, text.encode("utf-8"))
 
     # Use
 
@@ -344,6 +359,28 @@ class Scene:
                           self._rows(), f"source: {source.get('type', 'none')}; ambient: {self.data.get('ambient', '')}")
 
 
+def as_scene(scene: Any) -> Scene:
+    """A scene, or that of a file by its path."""
+    if isinstance(scene, (str, os.PathLike)):
+        return Scene.load(scene)
+    if not isinstance(scene, Scene):
+        raise InputError(f"{scene!r} is not a scene", "give a Scene, or the path of a scene file")
+    return scene
+
+
+def _table(value: Any, name: str) -> Dict[str, Any]:
+    if not isinstance(value, Mapping):
+        raise InputError(f"{name} is {value!r}; expected a dictionary", 'write {"key": value, ...}')
+    return dict(value)
+
+
+def _write(path: Path, content: bytes) -> None:
+    try:
+        path.write_bytes(content)
+    except OSError as error:
+        raise SystemFailure(f"{path} cannot be written: {error.strerror}; hint: check folder and permissions") from error
+
+
 def _temporary_folder(owner: Any) -> Path:
     """A folder that is removed when nothing refers to ``owner`` any more."""
     folder = tempfile.mkdtemp(prefix="scintray-")
@@ -371,3 +408,31 @@ def _with_unit(entry: Any) -> Any:
     if isinstance(entry.get("element"), dict):
         entry = {**entry, "element": _with_unit(entry["element"])}
     return entry
+
+
+def draw_edges(ax: Any, plane: str, vertices: np.ndarray, triangles: np.ndarray, unit: str = "mm", **style: Any) -> None:
+    """Draws the edges between triangles of different planes, projected onto a plane."""
+    lines = vertices[_sharp_edges(vertices, triangles)][:, :, ["xyz".index(axis) for axis in plane]]
+    flat = np.full((len(lines), 3, 2), np.nan)
+    flat[:, :2] = lines
+    ax.plot(flat[:, :, 0].ravel(), flat[:, :, 1].ravel(), linewidth=0.8, **style)
+    ax.set_aspect("equal")
+    ax.set_xlabel(f"{plane[0]} ({unit})")
+    ax.set_ylabel(f"{plane[1]} ({unit})")
+
+
+def _sharp_edges(vertices: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    """Edges (n, 2) between triangles of different planes."""
+    corners = vertices[triangles]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-300)
+    edges = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
+    owner = np.tile(np.arange(len(triangles)), 3)
+    order = np.lexsort((edges[:, 1], edges[:, 0]))
+    edges, owner = edges[order], owner[order]
+    unique, first, count = np.unique(edges, axis=0, return_index=True, return_counts=True)
+    sharp = count != 2
+    pairs = np.flatnonzero(count == 2)
+    a, b = owner[first[pairs]], owner[first[pairs] + 1]
+    sharp[pairs] = np.einsum("ij,ij->i", normals[a], normals[b]) < 0.9999
+    return unique[sharp]

@@ -10,10 +10,11 @@ from typing import Any, Callable, Dict, List, Optional, Union
 import numpy as np
 
 from . import _core
-from ._tools import axes_for, numbers, positive_integer
+from ._checks import flag, numbers, one_of, path_text, positive_integer, whole, whole_or_none
+from ._tools import Shown, axes_for, dataframe, html_table
 from .errors import Cancelled, ClosedError, InputError, Problem
 from .results import Results
-from .scene import Scene
+from .scene import PLANES, Scene, as_scene, draw_edges
 
 __all__ = ["Deposits", "PhotonList", "ProgressBar", "Simulation"]
 
@@ -25,7 +26,7 @@ _TIMES_NS = {"ps": 1e-3, "ns": 1.0, "us": 1e3, "ms": 1e6, "s": 1e9}
 
 
 def _factor(units: Dict[str, float], unit: str, what: str) -> float:
-    if unit not in units:
+    if not isinstance(unit, str) or unit not in units:
         raise InputError(f"{unit!r} is not a unit of {what}", "it is one of " + ", ".join(units))
     return units[unit]
 
@@ -36,7 +37,7 @@ _STEP_COLUMNS = ("beta", "beta_end", "charge", "particle", "kinetic", "scintilla
                  "decay", "rise")
 
 
-class Deposits:
+class Deposits(Shown):
     """Energy deposits of another program: one row each, rows of one event number are one event.
 
     Parameters
@@ -89,12 +90,30 @@ class Deposits:
     def __len__(self) -> int:
         return len(self.event)
 
+    def to_dataframe(self) -> Any:
+        """A DataFrame with a row a deposit; units in ``attrs["units"]``."""
+        columns: Dict[str, Any] = {"event": self.event.astype(np.int64), "energy_keV": self.energy_keV}
+        for k, axis in enumerate("xyz"):
+            columns[f"{axis}_mm"] = self.position_mm[:, k]
+        if len(self.time_ns):
+            columns["time_ns"] = self.time_ns
+        return dataframe(columns, {"event": "1", "energy_keV": "keV", "x_mm": "mm", "y_mm": "mm", "z_mm": "mm",
+                                   "time_ns": "ns"})
+
+    def plot(self, ax: Optional[Any] = None, *, plane: str = "xz") -> Any:
+        """Draws the deposits, projected onto a plane ("xy", "xz" or "yz"), coloured by their energy."""
+        return _draw_points(ax, plane, self.position_mm, self.energy_keV, "energy (keV)")
+
+    def _rows(self) -> Any:
+        return [("deposits", len(self)), ("events", len(np.unique(self.event))),
+                ("energy (keV)", f"{self.energy_keV.sum():.6g}")] + _ranges(self.position_mm)
+
     def __repr__(self) -> str:
         return (f"Deposits({len(self)} in {len(np.unique(self.event))} events, "
                 f"{self.energy_keV.sum():.6g} keV)")
 
 
-class PhotonList:
+class PhotonList(Shown):
     """Photons of another program: one row each, rows of one event number are one event.
 
     Raises InputError for other shapes, numbers that are not finite, and unknown units; what else is wrong is found,
@@ -148,9 +167,39 @@ class PhotonList:
     def __len__(self) -> int:
         return len(self.columns["x"])
 
+    @property
+    def position_mm(self) -> np.ndarray:
+        """Where the photons start (n, 3)."""
+        return np.column_stack([self.columns[axis] for axis in "xyz"])
+
+    def plot(self, ax: Optional[Any] = None, *, plane: str = "xz") -> Any:
+        """Draws where the photons start, projected onto a plane ("xy", "xz" or "yz"), coloured by wavelength."""
+        return _draw_points(ax, plane, self.position_mm, self.columns["wavelength"], "wavelength (nm)")
+
+    def _rows(self) -> Any:
+        nm = self.columns["wavelength"]
+        return [("photons", len(self)), ("wavelength (nm)", f"{nm.min():.6g} to {nm.max():.6g}")] \
+            + _ranges(self.position_mm)
+
     def __repr__(self) -> str:
         nm = self.columns["wavelength"]
         return f"PhotonList({len(self)} photons of {nm.min():.6g} to {nm.max():.6g} nm)"
+
+
+def _ranges(position_mm: np.ndarray) -> List[Any]:
+    return [(f"{axis} (mm)", f"{position_mm[:, k].min():.6g} to {position_mm[:, k].max():.6g}")
+            for k, axis in enumerate("xyz")]
+
+
+def _draw_points(ax: Optional[Any], plane: str, position_mm: np.ndarray, value: np.ndarray, label: str) -> Any:
+    x, y = ("xyz".index(axis) for axis in one_of(plane, "plane", PLANES))
+    ax = axes_for(ax)
+    points = ax.scatter(position_mm[:, x], position_mm[:, y], c=value, s=4, rasterized=True)
+    ax.set_aspect("equal")
+    ax.set_xlabel(f"{plane[0]} (mm)")
+    ax.set_ylabel(f"{plane[1]} (mm)")
+    ax.figure.colorbar(points, ax=ax, label=label)
+    return ax
 
 
 class ProgressBar:
@@ -221,18 +270,11 @@ class Simulation:
     def __init__(self, scene: Union[Scene, str, "os.PathLike[str]"], *, threads: Optional[int] = None,
                  seed: Optional[int] = None, photons: Optional[int] = None, events: Optional[int] = None,
                  quick: bool = False) -> None:
-        if isinstance(scene, (str, os.PathLike)):
-            scene = Scene.load(scene)
-        if not isinstance(scene, Scene):
-            raise InputError(f"{scene!r} is not a scene", "give a Scene, or the path of a scene file")
-        if seed is not None and (isinstance(seed, bool) or not isinstance(seed, (int, np.integer)) or seed < 0
-                                 or seed >= 2**64):
-            raise InputError(f"seed is {seed!r}; expected a whole number from 0 on", "write seed=1, for example")
-        self.scene = scene.copy()
+        self.scene = as_scene(scene).copy()
         self.text, self.file = self.scene.text, self.scene.file
         self._core: Any = self._guard(lambda: _core.Session(
-            self.text, self.file, positive_integer(threads, "threads"), None if seed is None else int(seed),
-            positive_integer(photons, "photons"), positive_integer(events, "events"), bool(quick)))
+            self.text, self.file, positive_integer(threads, "threads"), whole_or_none(seed, "seed"),
+            positive_integer(photons, "photons"), positive_integer(events, "events"), flag(quick, "quick")))
 
     def _guard(self, work: Callable[[], Any]) -> Any:
         try:
@@ -287,14 +329,15 @@ class Simulation:
             if not isinstance(deposits, Deposits):
                 raise InputError(f"deposits is of the type {type(deposits).__name__}",
                                  "give Deposits(event, position, energy, time)")
-            self._guard(lambda: core.set_hits(deposits.event, deposits.position_mm, deposits.energy_keV,
-                                              deposits.time_ns, deposits.steps))
+            hits = deposits
+            self._guard(lambda: core.set_hits(hits.event, hits.position_mm, hits.energy_keV, hits.time_ns, hits.steps))
         if photon_list is not None:
             if not isinstance(photon_list, PhotonList):
                 raise InputError(f"photon_list is of the type {type(photon_list).__name__}",
                                  "give PhotonList(position, direction, wavelength)")
-            self._guard(lambda: core.set_photons(photon_list.columns))
-        path = None if output is None else os.fspath(output)
+            columns = photon_list.columns
+            self._guard(lambda: core.set_photons(columns))
+        path = None if output is None else path_text(output, "output")
         data, raised = self._guard(lambda: watched(progress, lambda call: core.run(call, path)))
         results = Results(data)
         if isinstance(raised, KeyboardInterrupt):
@@ -306,25 +349,16 @@ class Simulation:
 
     def plot(self, ax: Optional[Any] = None, *, plane: str = "xz", point: int = 0) -> Any:
         """Draws the edges of the placed parts, projected onto a plane ("xy", "xz" or "yz"), mm."""
-        if plane not in ("xy", "xz", "yz"):
-            raise InputError(f"plane is {plane!r}", 'it is one of "xy", "xz", "yz"')
+        one_of(plane, "plane", PLANES)
         parts = self.parts(point)
         ax = axes_for(ax)
-        columns = ["xyz".index(axis) for axis in plane]
-        colours = {}
+        colours: Dict[str, str] = {}
         for part in parts:
             medium = part["medium"] or f"sensor {part['sensor']}"
             new = medium not in colours
             colours.setdefault(medium, f"C{len(colours) % 10}")
-            edges = _sharp_edges(part["vertices"], part["triangles"])
-            lines = part["vertices"][edges][:, :, columns]
-            flat = np.full((len(lines), 3, 2), np.nan)
-            flat[:, :2] = lines
-            ax.plot(flat[:, :, 0].ravel(), flat[:, :, 1].ravel(), color=colours[medium], linewidth=0.8,
-                    label=medium if new else None)
-        ax.set_aspect("equal")
-        ax.set_xlabel(f"{plane[0]} (mm)")
-        ax.set_ylabel(f"{plane[1]} (mm)")
+            draw_edges(ax, plane, part["vertices"], part["triangles"], color=colours[medium],
+                       label=medium if new else None)
         ax.legend(loc="upper right", fontsize="small")
         ax.set_title(str(self.scene.data.get("title", "")))
         return ax
@@ -339,29 +373,19 @@ class Simulation:
     def __exit__(self, *_: Any) -> None:
         self.close()
 
+    def _repr_html_(self) -> str:
+        if self._core is None:
+            return html_table("Simulation", ("", ""), [("state", "closed")])
+        shown = range(min(self.points, 20))
+        rows = [(i, *self.parameters(i).values()) for i in shown]
+        more = f"; {self.points - 20} more points" if self.points > 20 else ""
+        return html_table(f"Simulation: {self.scene.data.get('title', '')}", ("point", *self._core.sweep_keys()), rows,
+                          self.file + more)
+
     def __repr__(self) -> str:
         state = "closed" if self._core is None else f"{self.points} point{'s' if self.points > 1 else ''}"
         return f"Simulation({self.scene.data.get('title', '')!r}, {state})"
 
 
 def _index(point: Any) -> int:
-    if isinstance(point, bool) or not isinstance(point, (int, np.integer)) or point < 0:
-        raise InputError(f"the point is {point!r}; expected a whole number", "points count from 0")
-    return int(point)
-
-
-def _sharp_edges(vertices: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    """Edges (n, 2) between triangles of different planes."""
-    corners = vertices[triangles]
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-300)
-    edges = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
-    owner = np.tile(np.arange(len(triangles)), 3)
-    order = np.lexsort((edges[:, 1], edges[:, 0]))
-    edges, owner = edges[order], owner[order]
-    unique, first, count = np.unique(edges, axis=0, return_index=True, return_counts=True)
-    sharp = count != 2
-    pairs = np.flatnonzero(count == 2)
-    a, b = owner[first[pairs]], owner[first[pairs] + 1]
-    sharp[pairs] = np.einsum("ij,ij->i", normals[a], normals[b]) < 0.9999
-    return unique[sharp]
+    return whole(point, "point")

@@ -8,13 +8,16 @@ from typing import Any, Dict, List, Optional, Sequence, Tuple, Union
 import numpy as np
 
 from . import _core
-from ._tools import Estimate, axes_for, dataframe, estimate, html_table, names_hint, need, numbers, positive_integer
+from ._checks import flag, names_hint, number, numbers, one_of, path_text, text_of, whole
+from ._tools import Estimate, axes_for, dataframe, estimate, html_table, need
 from .errors import InputError
 from .simulation import Progress, watched
 
 __all__ = ["Goniometer", "HeightMap", "Medium", "SurfaceTable", "goniometer", "media", "names", "surfaces"]
 
 PathLike = Union[str, "os.PathLike[str]"]
+_MOST_POINTS = 16384  # of an edge of a map
+_SIDES = ("inside", "outside")
 _KINDS = ("media", "surfaces", "sensors", "reflectors")
 
 
@@ -23,7 +26,7 @@ def names(kind: str, definitions: str = "") -> List[str]:
     with further ones ([surfaces.NAME], ...)."""
     if kind not in _KINDS:
         raise names_hint("kind of definitions", kind, _KINDS)
-    return _core.definitions(kind, definitions)
+    return _core.definitions(kind, text_of(definitions, "definitions"))
 
 
 def media() -> List[str]:
@@ -46,13 +49,23 @@ class Medium:
     Raises InputError for an unknown name, with the nearest.
     """
 
+    index: np.ndarray
+    group_index: np.ndarray
+    absorption_length_mm: np.ndarray
+    scattering_length_mm: np.ndarray
+    emission: np.ndarray
+    yield_per_keV: float
+    density_g_per_cm3: float
+    decay: List[Tuple[float, float, float]]
+    sources: List[str]
+
     def __init__(self, name: str, wavelength_nm: Any = None, definitions: str = "") -> None:
-        self.name = name
+        self.name = text_of(name, "name")
         self.wavelength_nm = numbers(np.arange(350.0, 651.0, 5.0) if wavelength_nm is None
                                      else np.atleast_1d(wavelength_nm), "wavelength_nm", (-1,), "nm")
         if (self.wavelength_nm <= 0).any():
             raise InputError("a wavelength is not positive", "give wavelengths in nm")
-        self.__dict__.update(_core.medium(name, self.wavelength_nm.tolist(), definitions))
+        self.__dict__.update(_core.medium(name, self.wavelength_nm.tolist(), text_of(definitions, "definitions")))
 
     def to_dataframe(self) -> Any:
         """A DataFrame with units in ``attrs["units"]``."""
@@ -174,13 +187,13 @@ def goniometer(surface: str, incidence_deg: Any, *, inside: str = "LSO", outside
     Raises InputError for unknown names (with the nearest), and numbers out of range.
     """
     angles = numbers(np.atleast_1d(incidence_deg), "incidence_deg", (-1,), "deg")
-    if side not in ("inside", "outside"):
-        raise InputError(f"side is {side!r}", 'it is "inside" or "outside"')
-    wavelength = float(numbers([wavelength_nm], "wavelength_nm", (1,), "nm")[0])
-    width = float(numbers([half_width_deg], "half_width_deg", (1,), "deg")[0])
-    return Goniometer(surface, _core.goniometer(surface, inside, outside, wavelength, np.radians(angles).tolist(),
-                                                side == "inside", positive_integer(rays, "rays"), int(seed),
-                                                float(np.radians(width)), definitions))
+    one_of(side, "side", _SIDES)
+    wavelength = number(wavelength_nm, "wavelength_nm", "nm", above=0.0)
+    width = number(half_width_deg, "half_width_deg", "deg", above=0.0)
+    return Goniometer(surface, _core.goniometer(
+        text_of(surface, "surface"), text_of(inside, "inside"), text_of(outside, "outside"), wavelength,
+        np.radians(angles).tolist(), side == "inside", whole(rays, "rays", least=1), whole(seed, "seed"),
+        float(np.radians(width)), text_of(definitions, "definitions")))
 
 
 class SurfaceTable:
@@ -199,22 +212,31 @@ class SurfaceTable:
     @classmethod
     def read(cls, path: PathLike) -> "SurfaceTable":
         """The table of a file (HDF5). Raises InputError."""
-        return cls(_core.read_table(os.fspath(path)))
+        return cls(_core.read_table(path_text(path)))
 
     def write(self, path: PathLike) -> None:
         """Writes the table (HDF5), for ``model = "table"`` of a surface."""
-        self._core.write(os.fspath(path))
+        self._core.write(path_text(path))
 
     def reflectance(self, incidence_deg: Any, side: str = "inside", slice: int = 0) -> np.ndarray:
-        """Reflectance at angles (deg), linear between nodes, of the shape of ``incidence_deg``."""
-        nodes = self.slices[slice][side]
-        return np.interp(np.radians(incidence_deg), nodes["incidence_rad"], nodes["reflectance"][:, 0])
+        """Reflectance at angles (deg), linear between nodes, of the shape of ``incidence_deg``; beyond the last node
+        its own. Raises InputError for angles outside of 0 to 90, another side, and a slice that there is not."""
+        shape = np.shape(incidence_deg)
+        angles = numbers(np.ravel(incidence_deg), "incidence_deg", (-1,), "deg")
+        wrong = np.flatnonzero((angles < 0) | (angles > 90))
+        if len(wrong):
+            raise InputError(f"incidence_deg has {angles[wrong[0]]:g}; expected 0 to 90", "give angles from the normal in deg")
+        nodes = self._slice(slice)[one_of(side, "side", _SIDES)]
+        return np.interp(np.radians(angles), nodes["incidence_rad"], nodes["reflectance"][:, 0]).reshape(shape)
+
+    def _slice(self, number: int) -> Dict[str, Any]:
+        return self.slices[whole(number, "slice", most=len(self.slices) - 1)]
 
     def plot(self, ax: Optional[Any] = None, slice: int = 0) -> Any:
         """Draws the reflectance against incidence, from both sides."""
         ax = axes_for(ax)
         for side in ("inside", "outside"):
-            nodes = self.slices[slice][side]
+            nodes = self._slice(slice)[side]
             ax.errorbar(np.degrees(nodes["incidence_rad"]), *nodes["reflectance"].T, fmt=".-", label=f"from {side}")
         ax.set_xlabel("angle of incidence (deg)")
         ax.set_ylabel("reflectance")
@@ -241,16 +263,25 @@ class HeightMap:
     """
 
     def __init__(self, heights_um: Any, pitch_um: Any, *, periodic: bool = False, title: str = "from Python") -> None:
-        heights = np.asarray(heights_um, dtype=np.float64)
+        try:
+            heights = np.asarray(heights_um, dtype=np.float64)
+        except (TypeError, ValueError) as error:
+            raise InputError(f"heights_um is not an array of numbers: {error}",
+                             "give an array (rows, columns) in um") from error
         if heights.ndim != 2 or min(heights.shape) < 2:
             raise InputError(f"heights_um has the shape {heights.shape}; expected (rows, columns), 2 x 2 at least",
                              "give a two-dimensional array in um")
         if np.isinf(heights).any():
             raise InputError("heights_um has infinite heights", "write nan for missing points")
-        pitch = np.broadcast_to(numbers(np.atleast_1d(pitch_um), "pitch_um", (-1,), "um"), (2,))
+        pitch = numbers(np.atleast_1d(pitch_um), "pitch_um", (-1,), "um")
+        if len(pitch) == 1:
+            pitch = np.repeat(pitch, 2)
+        if len(pitch) != 2:
+            raise InputError(f"pitch_um has {len(pitch)} numbers; expected one, or (x, y)", "give distances in um")
         if (pitch <= 0).any():
             raise InputError(f"pitch_um is {pitch.tolist()}; expected above 0", "give the distance of points in um")
-        self._core: Any = _core.map_from(heights, float(pitch[0]), float(pitch[1]), periodic, title)
+        self._core: Any = _core.map_from(heights, float(pitch[0]), float(pitch[1]),
+                                        flag(periodic, "periodic"), text_of(title, "title"))
 
     @classmethod
     def _of(cls, core: Any) -> "HeightMap":
@@ -263,23 +294,34 @@ class HeightMap:
              channel: Optional[str] = None, periodic: bool = False) -> "HeightMap":
         """The map of a file of a microscope or profiler (docs/height_maps.md). Units are read, never guessed: raises
         InputError when neither the file nor the arguments state one."""
-        return cls._of(_core.read_map(os.fspath(path), pitch_um, height_unit_um, channel, periodic))
+        def length(value: Optional[float], name: str) -> Optional[float]:
+            return None if value is None else number(value, name, "um", above=0.0)
+        return cls._of(_core.read_map(path_text(path), length(pitch_um, "pitch_um"),
+                                      length(height_unit_um, "height_unit_um"),
+                                      None if channel is None else text_of(channel, "channel"),
+                                      flag(periodic, "periodic")))
 
     @classmethod
     def synthesize(cls, kind: str, *, seed: int = 1, points: int = 0, **lengths: float) -> "HeightMap":
-        """A map of a recipe: "ground", "polished", "gaussian" (rms_height_um, correlation_length_um, lay_length_um,
-        lay_angle_rad) or "k_correlation" (rms_height_um, knee_length_um, exponent); pitch_um for any. Lengths in um.
-        """
-        allowed = {"ground": (), "polished": (), "gaussian": ("rms_height_um", "correlation_length_um", "lay_length_um",
-                                                              "lay_angle_rad"),
-                   "k_correlation": ("rms_height_um", "knee_length_um", "exponent")}
-        if kind not in allowed:
-            raise names_hint("kind of map", kind, list(allowed))
-        known = (*allowed[kind], "pitch_um")
+        """A map of a recipe: "ground", "polished", "gaussian" (rms_height_um, correlation_length_um; also
+        lay_length_um, lay_angle_rad) or "k_correlation" (rms_height_um, knee_length_um, exponent); pitch_um for any.
+        Lengths in um; ``points`` along an edge (0: the recipe's). Raises InputError for a length that is missing,
+        unknown or out of range."""
+        required = {"ground": (), "polished": (), "gaussian": ("rms_height_um", "correlation_length_um"),
+                    "k_correlation": ("rms_height_um", "knee_length_um", "exponent")}
+        if not isinstance(kind, str) or kind not in required:
+            raise names_hint("kind of map", kind, list(required))
+        known = (*required[kind], *(("lay_length_um", "lay_angle_rad") if kind == "gaussian" else ()), "pitch_um")
         for name in lengths:
             if name not in known:
                 raise names_hint(f"length of a {kind} map", name, known)
-        return cls._of(_core.synthesize_map(kind, {k: float(v) for k, v in lengths.items()}, int(seed), int(points)))
+        missing = [name for name in required[kind] if name not in lengths]
+        if missing:
+            raise InputError(f"a {kind} map needs " + " and ".join(missing), f"write {missing[0]}=1.0, for example")
+        values = {name: number(value, name, "um" if name.endswith("_um") else "",
+                               **({} if name == "lay_angle_rad" else {"above": 0.0})) for name, value in lengths.items()}
+        return cls._of(_core.synthesize_map(kind, values, whole(seed, "seed"),
+                                            whole(points, "points", most=_MOST_POINTS)))
 
     @property
     def heights_um(self) -> np.ndarray:
@@ -312,25 +354,30 @@ class HeightMap:
         """A copy without outliers (beyond so many robust standard deviations), with missing points filled, filtered
         by a median (radius in points) and a Gaussian (standard deviation, um), and less a polynomial of degree
         ``level`` (0: the mean; None: nothing)."""
-        return HeightMap._of(self._core.prepared(level, gaussian_um, median, outliers, fill_missing))
+        return HeightMap._of(self._core.prepared(
+            None if level is None else whole(level, "level", most=20),
+            None if gaussian_um is None else number(gaussian_um, "gaussian_um", "um", above=0.0),
+            None if median is None else whole(median, "median", least=1, most=1000),
+            None if outliers is None else number(outliers, "outliers", above=0.0), flag(fill_missing, "fill_missing")))
 
     def visible_slope(self, incidence_deg: float = 0.0, rays: int = 20_000) -> Estimate:
         """Mean visible slope (deg): mean angle of the facets that light at an incidence angle hits first."""
-        angle = float(np.radians(numbers([incidence_deg], "incidence_deg", (1,), "deg")[0]))
-        value, error = self._core.visible_slope(angle, positive_integer(rays, "rays"))
+        angle = float(np.radians(number(incidence_deg, "incidence_deg", "deg", least=0.0, below=90.0)))
+        value, error = self._core.visible_slope(angle, whole(rays, "rays", least=1))
         return Estimate(float(np.degrees(value)), float(np.degrees(error)))
 
     def table(self, inside: float, outside: float = 1.0, *, rays: int = 2000, seed: int = 1, directional: bool = False,
               reciprocal: bool = False, progress: Progress = None) -> SurfaceTable:
         """The ``SurfaceTable`` of the map between media of these refractive indices, traced with ``rays`` for each
         incidence and azimuth."""
-        index = numbers([inside, outside], "the refractive indices", (2,))
+        index = [number(inside, "inside", above=0.0), number(outside, "outside", above=0.0)]
         return SurfaceTable(watched(progress, lambda call: _core.build_table(
-            self._core, index[0], index[1], positive_integer(rays, "rays"), int(seed), directional, reciprocal, call)))
+            self._core, index[0], index[1], whole(rays, "rays", least=1), whole(seed, "seed"),
+            flag(directional, "directional"), flag(reciprocal, "reciprocal"), call)))
 
     def write(self, path: PathLike) -> None:
         """Writes a Gwyddion simple field (.gsf)."""
-        self._core.write(os.fspath(path))
+        self._core.write(path_text(path))
 
     def plot(self, ax: Optional[Any] = None) -> Any:
         """Draws the heights."""

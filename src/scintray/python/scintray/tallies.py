@@ -6,18 +6,21 @@ from typing import Any, Dict, List, Optional
 
 import numpy as np
 
-from ._tools import Estimate, axes_for, estimate, html_table, need
+from ._tools import Estimate, Shown, axes_for, estimate, html_table, need
 
 __all__ = ["Moments", "Tally", "TallyAxis"]
 
 
-class Moments:
+class Moments(Shown):
     """Mean and spread of a number over photons or events: ``count``, ``mean``, ``standard_deviation``."""
 
     def __init__(self, entry: Dict[str, Any]) -> None:
         self.count: int = entry["count"]
         self.mean: Estimate = estimate(entry["mean"])
         self.standard_deviation: float = entry["standard_deviation"]
+
+    def _rows(self) -> Any:
+        return [("mean", self.mean), ("standard deviation", f"{self.standard_deviation:.6g}"), ("count", self.count)]
 
     def __repr__(self) -> str:
         return f"Moments(mean {self.mean}, standard deviation {self.standard_deviation:.6g}, count {self.count})"
@@ -41,6 +44,9 @@ class TallyAxis:
     @property
     def label(self) -> str:
         return f"{self.variable} ({self.unit})" if self.unit not in ("", "1") else self.variable
+
+    def __repr__(self) -> str:
+        return f"TallyAxis({self.label}, {self.bins} {'names' if self.names else 'bins'})"
 
 
 class Tally:

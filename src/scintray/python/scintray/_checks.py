@@ -1,0 +1,120 @@
+"""Arguments of the package's functions: each test returns the value as the library takes it, or raises InputError with
+the name of the argument, what was found, and what to write."""
+
+from __future__ import annotations
+
+import difflib
+import math
+import os
+from pathlib import Path
+from typing import Any, List, Optional, Sequence
+
+import numpy as np
+
+from .errors import InputError
+
+_MOST_WHOLE = 2**64 - 1
+
+
+def names_hint(kind: str, wanted: Any, names: Sequence[str]) -> InputError:
+    """The error of a name that does not exist, with those that do."""
+    near = difflib.get_close_matches(str(wanted), list(names), 1)
+    shown: List[str] = list(names)[:8]
+    hint = (f'did you mean "{near[0]}"? ' if near else "") + "there are: " + ", ".join(shown) \
+        + (", ..." if len(names) > len(shown) else "") if names else "there are none"
+    return InputError(f'no {kind} is called "{wanted}"', hint)
+
+
+def numbers(values: Any, name: str, shape: Sequence[int], unit: str = "") -> np.ndarray:
+    """Finite numbers as a contiguous array of doubles. -1 in ``shape`` stands for any length.
+
+    Raises InputError with the name, the shape found and the one expected, and the first value that is not
+    finite.
+    """
+    expected = "(" + ", ".join("n" if n < 0 else str(n) for n in shape) + ("," if len(shape) == 1 else "") + ")"
+    try:
+        array = np.ascontiguousarray(values, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise InputError(f"{name} is not an array of numbers: {error}",
+                         f"give an array of shape {expected}" + (f" in {unit}" if unit else "")) from error
+    if array.ndim != len(shape) or any(n >= 0 and n != m for n, m in zip(shape, array.shape)):
+        raise InputError(f"{name} has the shape {array.shape}; expected {expected}",
+                         f"give an array of shape {expected}" + (f" in {unit}" if unit else ""))
+    wrong = np.argwhere(~np.isfinite(array))
+    if len(wrong):
+        where = ", ".join(str(i) for i in wrong[0])
+        raise InputError(f"{name}[{where}] is {array[tuple(wrong[0])]}, which is not finite"
+                         + (f" ({len(wrong)} such values)" if len(wrong) > 1 else ""),
+                         "remove or replace values that are not numbers")
+    return array
+
+
+def number(value: Any, name: str, unit: str = "", *, least: float = -math.inf, above: float = -math.inf,
+           below: float = math.inf) -> float:
+    """A finite number from ``least`` on, above ``above`` and below ``below``."""
+    wanted = "a finite number" + (f" in {unit}" if unit else "")
+    for bound, word in ((least, "from"), (above, "above"), (below, "below")):
+        if math.isfinite(bound):
+            wanted += f", {word} {bound:g}"
+    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, float, np.integer, np.floating)) \
+            or not math.isfinite(value):
+        raise InputError(f"{name} is {value!r}; expected {wanted}", f"write {name}=1.0, for example")
+    if not (value >= least and value > above and value < below):
+        raise InputError(f"{name} is {value:g}; expected {wanted}", "give a number in this range")
+    return float(value)
+
+
+def whole(value: Any, name: str, *, least: int = 0, most: int = _MOST_WHOLE) -> int:
+    """A whole number."""
+    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, np.integer)) or not least <= value <= most:
+        to = "" if most == _MOST_WHOLE else f" to {most}"
+        raise InputError(f"{name} is {value!r}; expected a whole number from {least}{to or ' on'}",
+                         f"write {name}={max(least, 1)}, for example")
+    return int(value)
+
+
+def whole_or_none(value: Any, name: str, *, least: int = 0) -> Optional[int]:
+    return None if value is None else whole(value, name, least=least)
+
+
+def positive_integer(value: Any, name: str) -> Optional[int]:
+    """None, or a whole number above 0."""
+    return whole_or_none(value, name, least=1)
+
+
+def text_of(value: Any, name: str) -> str:
+    if not isinstance(value, str):
+        raise InputError(f"{name} is {value!r}; expected text", f'write {name}="...", in quotes')
+    return value
+
+
+def flag(value: Any, name: str) -> bool:
+    if not isinstance(value, (bool, np.bool_)):
+        raise InputError(f"{name} is {value!r}; expected True or False", f"write {name}=True, for example")
+    return bool(value)
+
+
+def one_of(value: Any, name: str, choices: Sequence[str]) -> str:
+    if not isinstance(value, str) or value not in choices:
+        raise InputError(f"{name} is {value!r}", "it is " + " or ".join(f'"{choice}"' for choice in choices))
+    return value
+
+
+def path_text(value: Any, name: str = "the path") -> str:
+    """The path of a file as text."""
+    if not isinstance(value, (str, os.PathLike)) or not isinstance(os.fspath(value), str):
+        raise InputError(f"{name} is {value!r}; expected the path of a file", 'write it as text, "folder/file"')
+    if "\0" in os.fspath(value):
+        raise InputError(f"{name} is {value!r}, which has a character that no path can have", "remove the character 0")
+    return os.fspath(value)
+
+
+def path_of(value: Any, name: str = "the path") -> Path:
+    return Path(path_text(value, name))
+
+
+def listed(values: Any, name: str, of: str) -> List[Any]:
+    """The elements of a list, tuple or array."""
+    if isinstance(values, (str, bytes, dict)) or not hasattr(values, "__iter__"):
+        raise InputError(f"{name} is {values!r}; expected a list of {of}", f"write {name}=[...]")
+    return list(values)
