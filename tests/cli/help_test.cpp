@@ -150,6 +150,13 @@ TEST_CASE("with --json standard output is one JSON value, and the text is on sta
   CHECK(run["points"].size() == 5);
   CHECK(contains(config::read_text_file(folder / "err.txt"), "results  crystal.h5"));
   CHECK(json::parse(standard_output("report crystal.h5 --json", folder)) == run);
+  const json both = json::parse(standard_output("report crystal.h5 crystal.h5 --json", folder));
+  CHECK(both["numbers"][0]["sigmas"][1] == 0.0);
+  std::filesystem::copy_file(folder / "crystal.toml", folder / "again.toml");
+  const json several =
+      json::parse(standard_output("run crystal.toml again.toml --photons 1000 --json", folder));
+  REQUIRE(several.size() == 2);
+  CHECK(several[1]["points"][0]["fates"] == run["points"][0]["fates"]);
   const json check = json::parse(standard_output("check crystal.toml --json", folder));
   CHECK(check["points"][0]["parts"].size() >= 2);
   CHECK(check["points"][0]["parts"][0]["volume_mm3"].get<double>() == doctest::Approx(180.0));

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "analysis/made_up_events.hpp"
 #include "support/made_up_result.hpp"
@@ -36,6 +37,23 @@ const ComparedNumber& detected(const std::vector<ComparedNumber>& numbers, const
 }
 
 }  // namespace
+
+TEST_CASE("A comparison as JSON has the numbers of its table, and what makes them unfair") {
+  const std::vector<NamedResult> results{named("a", 1, 0.45), named("b", 1, 0.46)};
+  const auto json = nlohmann::json::parse(comparison_json(results));
+  const std::vector<ComparedNumber> numbers = compare_results(results);
+  CHECK(json["results"][1]["name"] == "b");
+  REQUIRE(json["numbers"].size() == numbers.size());
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    CHECK(json["numbers"][i]["point"] == numbers[i].point);
+    CHECK(json["numbers"][i]["quantity"] == numbers[i].quantity);
+    CHECK(json["numbers"][i]["values"][1]["value"] == numbers[i].values[1]->value);
+    CHECK(json["numbers"][i]["sigmas"][0].is_null());
+    if (numbers[i].sigmas[1]) CHECK(json["numbers"][i]["sigmas"][1] == *numbers[i].sigmas[1]);
+  }
+  CHECK(json["cautions"].size() == 1);  // one seed
+  CHECK(json["not_included"].size() == 1);
+}
 
 TEST_CASE("Differences are in standard errors of the difference, point by point") {
   NamedResult other = named("b", 2, 0.46);

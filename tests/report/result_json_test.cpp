@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/made_up_events.hpp"
+#include "scintray/analysis/light_analysis.hpp"
+#include "scintray/report/acceptance.hpp"
 #include "scintray/report/text/text_summary.hpp"
 #include "scintray/report/text/until_text.hpp"
 #include "support/made_up_result.hpp"
@@ -32,6 +34,69 @@ TEST_CASE("JSON has the fates of every point and what they do not include") {
   CHECK(first["not_included"][0]["changes"] == json::array({"detected fraction"}));
   CHECK(first["not_included"][1]["changes"] == json::array({"energy resolution", "CTR"}));
   CHECK(result["points"][1]["not_included"].is_null());  // not recorded
+}
+
+TEST_CASE("JSON has absorbed light, means, tallies with their errors, and what follows from them") {
+  RunResult run = test::made_up_run();
+  run.points.resize(1);
+  PointResult& point = run.points[0];
+  TallyResult spread;
+  spread.name = "arrival";
+  spread.type = "light_spread";
+  spread.score = "photons";
+  spread.unit = "1";
+  spread.axes.resize(2);
+  for (TallyAxis& axis : spread.axes) axis = {"position", "mm", {0.0, 1.0, 2.0}, {}, {}};
+  spread.sum = spread.sum_of_squares = {1.0, 0.0, 3.0, 4.0};
+  spread.outside = 2.0;
+  point.tallies.push_back(spread);
+  const json first = json::parse(report::result_json(run, {}))["points"][0];
+  CHECK(first["absorbed_in_medium"]["LSO"]["photons"] == point.absorbed_in_medium[MediumId(0)]);
+  CHECK(first["absorbed_in_medium"]["LSO"]["error"] == point.absorbed_fraction(MediumId(0)).error);
+  CHECK(first["absorbed_at_surface"]["reflector: ESR"]["fraction"] ==
+        point.absorbed_fraction(SurfaceId(1)).value);
+  CHECK(first["detected_path_mm"]["value"] == point.detected_path_mm.mean().value);
+  CHECK(first["detected_time_ns"]["error"] == point.detected_time_ns.mean().error);
+  CHECK(first["tallies"].size() == 1);  // exit angles have their own
+  const json& tally = first["tallies"].back();
+  CHECK(tally["name"] == "arrival");
+  CHECK(tally["axes"][1]["edges"] == json::array({0.0, 1.0, 2.0}));
+  CHECK(tally["sum"] == json::array({1.0, 0.0, 3.0, 4.0}));
+  CHECK(tally["error"][3] == spread.at(3, point.photons).error);
+  CHECK(tally["outside"] == 2.0);
+  CHECK(tally["light_spread"]["centre_mm"][0] == analysis::light_spread(spread).centre_mm[0]);
+  CHECK(tally["light_spread"]["centre_mm"][0].get<double>() == doctest::Approx(1.375));  // 7 of 8 at 1.5 mm
+  REQUIRE(first["exit_angles"].size() == 2);
+  const analysis::CrossingAngles angles = analysis::crossing_angles(point).front();
+  CHECK(first["exit_angles"][0]["face"] == "crystal:exit");
+  CHECK(first["exit_angles"][0]["outside"]["counts"] == angles.outside);
+  CHECK(first["exit_angles"][0]["inside"]["half_rad"]["value"] ==
+        analysis::divergence(angles.inside).half_rad.value);
+}
+
+TEST_CASE("JSON has the claims of a scene, with their values, errors and limits") {
+  const RunResult run = test::made_up_run();
+  report::RunAnalysis analyses;
+  scene_file::CriterionSpec claim;
+  claim.text = "polished loses little light";
+  claim.published = "0.98";
+  claim.quantity = scene_file::CriterionQuantity::light;
+  claim.curve.name = "polished";
+  claim.at_least = 0.1;
+  analyses.criteria.push_back(claim);
+  const json claims = json::parse(report::result_json(run, analyses))["claims"];
+  REQUIRE(claims.size() == 1);
+  const std::vector<report::Evaluation> evaluations = report::evaluate(run, analyses);
+  CHECK(claims[0]["claim"] == claim.text);
+  CHECK(claims[0]["at_least"] == 0.1);
+  CHECK(claims[0]["at_most"].is_null());
+  if (evaluations[0].not_available.empty()) {
+    CHECK(claims[0]["value"] == evaluations[0].ours.value);
+    CHECK(claims[0]["agrees"] == evaluations[0].agrees);
+  } else {
+    CHECK(claims[0]["not_available"] == evaluations[0].not_available);
+  }
+  CHECK_FALSE(json::parse(report::result_json(run, {})).contains("claims"));
 }
 
 TEST_CASE("JSON and the summary state what ended a point") {

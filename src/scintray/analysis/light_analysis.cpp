@@ -218,9 +218,11 @@ std::vector<tally::TallyResult> tallies_of(const CrossingAngles& angles) {
     tally.faces = {angles.face};
     tally.detected_only = angles.detected_only;
     tally.axes.push_back({variable, "rad", {}, {}, {}});
-    for (std::size_t i = 0; i <= counts.size(); ++i)
-      tally.axes[0].edges.push_back(0.5 * core::kPi * static_cast<double>(i) /
-                                    static_cast<double>(counts.size()));
+    // The numbers that the run itself has.
+    const double right_angle = 0.5 * core::kPi, per_bin = static_cast<double>(counts.size()) / right_angle;
+    for (std::size_t i = 0; i < counts.size(); ++i)
+      tally.axes[0].edges.push_back(static_cast<double>(i) / per_bin);
+    tally.axes[0].edges.push_back(right_angle);
     tally.sum.assign(counts.begin(), counts.end());
     tally.sum_of_squares = tally.sum;
     tally.group_sums = groups;

@@ -61,8 +61,6 @@ void report_one(ReportOptions options) {
 }
 
 void compare(const ReportOptions& options) {
-  if (options.json)
-    throw CLI::ValidationError("--json", "prints one result; compare several with --text, or on a page");
   std::vector<report::NamedResult> compared;
   for (const std::filesystem::path& file : options.files) {
     tally::RunResult run = read_with_progress(file);
@@ -72,6 +70,10 @@ void compare(const ReportOptions& options) {
   for (std::size_t i = 0; i < compared.size(); ++i)
     for (std::size_t k = 0; k < i; ++k)
       if (compared[i].name == compared[k].name) compared[i].name = options.files[i].string();
+  if (options.json) {
+    std::cout << report::comparison_json(compared);
+    return;
+  }
   std::cout << report::comparison_text(compared);
   if (options.text) return;
   const auto page = page_path(options);

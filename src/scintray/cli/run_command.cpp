@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
+#include <functional>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -153,17 +154,40 @@ tally::RunResult trace(const RunOptions& options, simulation::Simulation& simula
   }
 }
 
+/// What the scenes of a command answer as JSON: of one scene its value, of several a list, which has those
+/// that were run also when a later one fails.
+class Answers {
+ public:
+  explicit Answers(const RunOptions& options) : options_(options), answer_(options.json) {}
+  ~Answers() {
+    answer_.print_text([&] {
+      if (options_.scenes.size() == 1) return texts_.empty() ? std::string() : texts_.front();
+      return fmt::format("[\n{}]\n", fmt::join(texts_, ",\n"));
+    });
+  }
+  Answers(const Answers&) = delete;
+  Answers& operator=(const Answers&) = delete;
+
+  void add(const std::function<std::string()>& text) {
+    if (options_.json) texts_.push_back(text());
+  }
+
+ private:
+  const RunOptions& options_;
+  JsonAnswer answer_;
+  std::vector<std::string> texts_;
+};
+
 void run_shard(const RunOptions& options, simulation::Simulation& simulation,
-               const std::filesystem::path& output, ProgressLine& line) {
-  const JsonAnswer answer(options.json);
+               const std::filesystem::path& output, ProgressLine& line, Answers& answers) {
   simulation::RangeFile file(output, options.shard);
   const tally::RunResult result = trace(options, simulation, file, output, line);
   if (!result.partial_reason.empty()) end_stopped("there is no shard yet", !options.no_checkpoints);
   std::cout << "shard    " << output.string() << "\n";
-  answer.print([&] { return Json{{"shard", output.string()}}; });
+  answers.add([&] { return Json{{"shard", output.string()}}.dump() + "\n"; });
 }
 
-void run_scene(const RunOptions& options, const std::filesystem::path& scene) {
+void run_scene(const RunOptions& options, const std::filesystem::path& scene, Answers& answers) {
   InterruptGuard::keeps_results(false);
   const scene_file::SceneFile file = scene_file::SceneFile::load(scene);
   check_criteria(file);
@@ -173,13 +197,12 @@ void run_scene(const RunOptions& options, const std::filesystem::path& scene) {
   const std::optional<core::FileLock> claim = core::claim_output(output);
   simulation::Simulation simulation(file, simulation_options(options, line));
   if (!options.quiet) say_before_tracing(simulation, file, line);
-  if (!options.shard_text.empty()) return run_shard(options, simulation, output, line);
-  const JsonAnswer answer(options.json);
+  if (!options.shard_text.empty()) return run_shard(options, simulation, output, line, answers);
   simulation::ResultsFile results(output);
   const tally::RunResult result = trace(options, simulation, results, output, line);
   const report::RunAnalysis analyses =
       show_results(output, result, {!options.quiet, !options.no_report, !options.no_view});
-  answer.print_text([&] { return report::result_json(result, analyses); });
+  answers.add([&] { return report::result_json(result, analyses); });
   if (!result.complete()) end_stopped("the results are partial and marked so", !options.no_checkpoints);
 }
 
@@ -200,7 +223,10 @@ void run_on_ranks(const RunOptions& options) {
   simulation::run_part(*options.ranks, [&] {
     if (options.scenes.size() > 1)
       throw CLI::ValidationError("SCENE", "several processes run one scene; run the scenes one at a time");
-    if (options.ranks->rank() == 0) return run_scene(options, options.scenes.front());
+    if (options.ranks->rank() == 0) {
+      Answers answers(options);
+      return run_scene(options, options.scenes.front(), answers);
+    }
     serve_scene(options, options.scenes.front());
   });
 }
@@ -262,13 +288,12 @@ void add_run_command(CLI::App& app) {
     interval_of(options->interval);
     if (options->scenes.size() > 1 && !options->output.empty())
       throw CLI::ValidationError("--output", "names one file, but several scenes are to be run");
-    if (options->scenes.size() > 1 && options->json)
-      throw CLI::ValidationError("--json", "prints one result, but several scenes are to be run");
     const InterruptGuard guard;
     options->ranks = mpi_ranks();
     if (options->ranks) return run_on_ranks(*options);
     if (options->scenes.size() > 1) require_own_outputs(*options);
-    for (const auto& scene : options->scenes) run_scene(*options, scene);
+    Answers answers(*options);
+    for (const auto& scene : options->scenes) run_scene(*options, scene, answers);
   });
 }
 

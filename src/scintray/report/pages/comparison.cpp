@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -230,6 +231,36 @@ std::string comparison_text(const std::vector<NamedResult>& results) {
   text += verdict(results, numbers) + "\n";
   for (const std::string& caution : cautions(results)) text += "note: " + caution + "\n";
   return text;
+}
+
+std::string comparison_json(const std::vector<NamedResult>& results) {
+  using Json = nlohmann::ordered_json;
+  const auto number_json = [](const std::optional<double>& value) {
+    return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
+  };
+  const std::vector<ComparedNumber> numbers = compare_results(results);
+  Json json = {{"results", Json::array()}, {"numbers", Json::array()}};
+  for (const NamedResult& result : results)
+    json["results"].push_back({{"name", result.name},
+                               {"title", result.run.header.title},
+                               {"scene", result.run.header.scene_file},
+                               {"seed", result.run.header.seed},
+                               {"complete", result.run.complete()}});
+  for (const ComparedNumber& number : numbers) {
+    Json entry = {{"point", number.point},
+                  {"quantity", number.quantity},
+                  {"values", Json::array()},
+                  {"sigmas", Json::array()}};
+    for (const std::optional<core::Estimate>& value : number.values)
+      entry["values"].push_back(
+          !value ? Json(nullptr)
+                 : Json{{"value", number_json(value->value)}, {"error", number_json(value->error)}});
+    for (const std::optional<double>& sigmas : number.sigmas) entry["sigmas"].push_back(number_json(sigmas));
+    json["numbers"].push_back(std::move(entry));
+  }
+  json["not_included"] = omissions(results, numbers);
+  json["cautions"] = cautions(results);
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string comparison_page(const std::vector<NamedResult>& results) {

@@ -106,6 +106,10 @@ std::vector<ComparedNumber> compare_results(const std::vector<NamedResult>& resu
 /// chance.
 std::string comparison_text(const std::vector<NamedResult>& results);
 
+/// The comparison as JSON: the names of the results, and of each quantity of each point its values (null:
+/// none) and differences in sigma, what the figures do not include, and the cautions.
+std::string comparison_json(const std::vector<NamedResult>& results);
+
 /// The comparison as a self-contained page.
 std::string comparison_page(const std::vector<NamedResult>& results);
 

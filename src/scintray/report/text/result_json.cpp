@@ -4,9 +4,14 @@
 #include <nlohmann/json.hpp>
 
 #include "scintray/analysis/analysis_fields.hpp"
+#include "scintray/analysis/light_analysis.hpp"
+#include "scintray/core/error.hpp"
 #include "scintray/core/step_event.hpp"
+#include "scintray/core/words.hpp"
+#include "scintray/report/acceptance.hpp"
 #include "scintray/report/text/omissions.hpp"
 #include "scintray/report/text/sweep_view.hpp"
+#include "scintray/scene_file/tally.hpp"
 
 namespace scintray::report {
 
@@ -120,6 +125,129 @@ Json sensors_json(const tally::RunResult& run, const tally::PointResult& point) 
   return sensors;
 }
 
+Json numbers_json(const std::vector<double>& values) {
+  Json list = Json::array();
+  for (const double value : values) list.push_back(number_json(value));
+  return list;
+}
+
+template <typename Id>
+Json absorbed_json(const tally::PointResult& point, const core::IdVector<Id, std::string>& names,
+                   const core::IdVector<Id, std::uint64_t>& counts) {
+  Json absorbed = Json::object();
+  for (std::uint32_t i = 0; i < counts.size(); ++i) {
+    const core::Estimate share = point.absorbed_fraction(Id(i));
+    absorbed[names[Id(i)]] = {{"photons", counts[Id(i)]},
+                              {"fraction", number_json(share.value)},
+                              {"error", number_json(share.error)}};
+  }
+  return absorbed;
+}
+
+Json axis_json(const tally::TallyAxis& axis) {
+  Json json = {{"variable", axis.variable}, {"unit", axis.unit}};
+  if (axis.names.empty())
+    json["edges"] = numbers_json(axis.edges);
+  else
+    json["names"] = axis.names;
+  return json;
+}
+
+/// What is computed from all bins of a tally together.
+void add_derived(const tally::TallyResult& tally, Json& json) {
+  const auto is_position = [](const tally::TallyAxis& axis) { return axis.variable == "position"; };
+  if (tally.type == "etendue" && tally.index > 0.0) {
+    try {
+      json["etendue_mm2_sr"] = estimate_json(analysis::read_etendue(tally).filled_mm2_sr);
+    } catch (const core::InputError& error) {
+      json["etendue_not_available"] = error.problems().front().what;
+    }
+  } else if (tally.axes.size() == 2 && is_position(tally.axes[0]) && is_position(tally.axes[1])) {
+    const analysis::LightSpread spread = analysis::light_spread(tally);
+    json["light_spread"] = {
+        {"centre_mm", numbers_json({spread.centre_mm[0], spread.centre_mm[1]})},
+        {"centre_error_mm", numbers_json({spread.centre_error_mm[0], spread.centre_error_mm[1]})},
+        {"rms_mm", numbers_json({spread.rms_mm[0], spread.rms_mm[1]})},
+        {"fwhm_mm", numbers_json({spread.fwhm_mm[0], spread.fwhm_mm[1]})}};
+  }
+}
+
+Json tally_json(const tally::PointResult& point, const tally::TallyResult& tally) {
+  Json axes = Json::array();
+  for (const tally::TallyAxis& axis : tally.axes) axes.push_back(axis_json(axis));
+  std::vector<double> errors;
+  for (std::size_t bin = 0; bin < tally.sum.size(); ++bin)
+    errors.push_back(tally.at(bin, point.photons).error);
+  Json json = {{"name", tally.name},
+               {"type", tally.type},
+               {"score", tally.score},
+               {"unit", tally.unit},
+               {"axes", axes},
+               {"sum", numbers_json(tally.sum)},
+               {"error", numbers_json(errors)},
+               {"outside", number_json(tally.outside)}};
+  add_derived(tally, json);
+  return json;
+}
+
+/// Crossings of a face in equal bins of 0 to 90 deg, and the angles that contain them.
+Json crossings_json(const std::vector<std::uint64_t>& counts, const std::vector<double>& groups) {
+  const analysis::Divergence divergence = analysis::divergence(counts, groups);
+  return {{"half_rad", estimate_json(divergence.half_rad)},
+          {"ninety_rad", estimate_json(divergence.ninety_rad)},
+          {"mean_cosine", estimate_json(divergence.mean_cosine)},
+          {"counts", counts}};
+}
+
+Json exit_angles_json(const tally::PointResult& point) {
+  Json list = Json::array();
+  for (const analysis::CrossingAngles& angles : analysis::crossing_angles(point))
+    list.push_back({{"name", angles.name},
+                    {"face", angles.face},
+                    {"detected_only", angles.detected_only},
+                    {"inside", crossings_json(angles.inside, angles.inside_groups)},
+                    {"outside", crossings_json(angles.outside, angles.outside_groups)}});
+  return list;
+}
+
+void add_light(const tally::RunResult& run, const tally::PointResult& point, Json& json) {
+  json["absorbed_in_medium"] = absorbed_json(point, run.header.media, point.absorbed_in_medium);
+  json["absorbed_at_surface"] = absorbed_json(point, run.header.surfaces, point.absorbed_at_surface);
+  json["interactions"] = estimate_json(point.interactions.mean());
+  json["detected_interactions"] = estimate_json(point.detected_interactions.mean());
+  json["detected_path_mm"] = estimate_json(point.detected_path_mm.mean());
+  json["detected_time_ns"] = estimate_json(point.detected_time_ns.mean());
+  json["tallies"] = Json::array();
+  for (const tally::TallyResult& tally : point.tallies)
+    if (tally.type != scene_file::kExitAngle && tally.type != scene_file::kExitAngleBeyond)
+      json["tallies"].push_back(tally_json(point, tally));
+  json["exit_angles"] = exit_angles_json(point);
+}
+
+Json criteria_json(const std::vector<Evaluation>& evaluations) {
+  Json list = Json::array();
+  for (const Evaluation& evaluation : evaluations) {
+    const scene_file::CriterionSpec& criterion = evaluation.criterion;
+    const auto bound = [](const std::optional<double>& limit) {
+      return limit ? number_json(*limit) : Json(nullptr);
+    };
+    Json json = {{"claim", criterion.text},
+                 {"at_least", bound(criterion.at_least)},
+                 {"at_most", bound(criterion.at_most)},
+                 {"published", criterion.published}};
+    if (evaluation.not_available.empty()) {
+      json["value"] = number_json(evaluation.ours.value);
+      json["error"] = number_json(evaluation.ours.error);
+      json["agrees"] = evaluation.agrees;
+      json["certain"] = evaluation.certain;
+    } else {
+      json["not_available"] = evaluation.not_available;
+    }
+    list.push_back(std::move(json));
+  }
+  return list;
+}
+
 Json point_json(const tally::RunResult& run, const tally::PointResult& point) {
   Json parameters = Json::object();
   for (std::size_t i = 0; i < run.header.sweep_keys.size(); ++i)
@@ -133,6 +261,7 @@ Json point_json(const tally::RunResult& run, const tally::PointResult& point) {
     json["cut_bias_bound"] = number_json(point.cut_bias_bound());
     json["fates"] = fates_json(point);
     json["sensors"] = sensors_json(run, point);
+    add_light(run, point, json);
   }
   json["not_included"] = omitted_json(point.omitted);
   if (point.until) json["until"] = until_json(*point.until);
@@ -156,6 +285,7 @@ std::string result_json(const tally::RunResult& run, const RunAnalysis& analyses
     }
     json["points"].push_back(std::move(point));
   }
+  if (!analyses.criteria.empty()) json["claims"] = criteria_json(evaluate(run, analyses));
   return json_dump(json) + "\n";
 }
 

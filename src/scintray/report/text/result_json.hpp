@@ -11,9 +11,11 @@
 namespace scintray::report {
 
 /// The numbers of a run as JSON (RFC 8259): header, and for each point its parameters, fates, counts of
-/// sensors, omitted effects (null: not recorded), energies, and the analysis of its events with the names of
-/// analysis::list_fields. Numbers that are not finite are null. Text that is not UTF-8 has U+FFFD in place of
-/// what is not.
+/// sensors, absorbed light, means of the detected photons, tallies with the sum and the error of each bin
+/// (the last axis fastest) and what follows from them (light spread, etendue), exit angles, omitted effects
+/// (null: not recorded), energies, and the analysis of its events with the names of analysis::list_fields;
+/// the claims of its scene. Numbers that are not finite are null. Text that is not UTF-8 has U+FFFD in place
+/// of what is not.
 /// @param analyses  of the events of the points, in their order; empty for a run of photons
 std::string result_json(const tally::RunResult& run, const RunAnalysis& analyses);
 
