@@ -277,13 +277,31 @@ TEST_CASE("Gaps of one pattern are one line: a builder's own are a note, others 
   CHECK(ended.exit_code == 0);
   check_contains(ended.output, {"note:", "gaps of 0.005 mm", "\"crystal[*]\"", "left by their builder"});
   check_contains(ended.output, {"warning 1: 2 gaps of 0.004 mm", "\"pin*\"", "36 mm2 in all"});
-  check_contains(ended.output, {"contact_tolerance = \"0.0042 mm\"", "nothing is to be done"});
+  check_contains(ended.output,
+                 {"contact_tolerance = \"0.0042 mm\"", "[[gap]] between = [\"pin*\", \"pin*\"]"});
   check_contains(ended.output, {"warning 2: parts", "\"lid\"", "0.002 mm apart"});  // 4 mm2
   CHECK_FALSE(contains(ended.output, "warning 3"));
   CHECK_FALSE(contains(ended.output, "crystal[0"));
   const std::string picture = content(folder / "gaps.svg");
   check_contains(picture, "2 gaps of 0.004 mm");
   CHECK_FALSE(contains(picture, "left by their builder"));
+  // Accepted as the hint says: counted, and no warning.
+  write(folder / "accepted.toml", content(folder / "scene.toml") +
+                                      "[[gap]]\nbetween = [\"pin*\", \"pin*\"]\n"
+                                      "[[gap]]\nbetween = [\"lid\", \"pin2\"]\n");
+  const Ended accepted = run_program({"check", "accepted.toml"}, folder);
+  CAPTURE(accepted.output);
+  check_contains(accepted.output,
+                 {"note: 2 gaps of 0.004 mm between parts \"pin*\" and \"pin*\", accepted by [[gap]]"});
+  check_contains(accepted.output, {"warning: parts", "\"lid\""});
+  check_contains(accepted.output,
+                 {"note: [[gap]] at accepted.toml", "no small gap between \"lid\" and \"pin2\""});
+  CHECK_FALSE(contains(accepted.output, "warning 1"));
+  write(folder / "mistyped.toml",
+        content(folder / "scene.toml") + "[[gap]]\nbetween = [\"pim1\", \"pin2\"]\n");
+  const std::string mistyped = run_program({"check", "mistyped.toml"}, folder).output;
+  check_contains(mistyped, {"mistyped.toml:39", "pim1"});
+  check_contains(mistyped, {"did you mean \"pin1\""});
   // Each gap of its own when asked.
   check_contains(run_program({"check", "scene.toml", "--all"}, folder).output, {"warning 3:"});
 }

@@ -43,6 +43,9 @@ struct GapGroup {
     return most_mm - least_mm < 0.01 * most_mm ? fmt::format("{:.3g} mm", most_mm)
                                                : fmt::format("{:.3g} to {:.3g} mm", least_mm, most_mm);
   }
+  /// Names or patterns that accept them.
+  const std::string& accepted_a() const { return gaps.size() == 1 ? gaps.front().a : a; }
+  const std::string& accepted_b() const { return gaps.size() == 1 ? gaps.front().b : b; }
   std::string parts() const {
     return gaps.size() == 1 ? fmt::format("\"{}\" and \"{}\"", gaps.front().a, gaps.front().b)
                             : fmt::format("\"{}\" and \"{}\"", a, b);
@@ -74,9 +77,9 @@ core::Problem warning_of(const GapGroup& group, const std::vector<contact::Place
       tolerance_mm, 1.0 / contact::kSmallGapShare);
   warning.hint = fmt::format(
       "if they are meant to touch, move one of them or write contact_tolerance = \"{:.3g} mm\" in [run], "
-      "which "
-      "joins all parts that are nearer; if the gap is meant, nothing is to be done: light crosses it as {}",
-      closing_tolerance(group.most_mm), ambient);
+      "which joins all parts that are nearer; if the gap is meant, accept it by [[gap]] between = [\"{}\", "
+      "\"{}\"]: light crosses it as {}",
+      closing_tolerance(group.most_mm), group.accepted_a(), group.accepted_b(), ambient);
   for (const contact::SmallGap& gap : group.gaps)
     warning.places_mm.push_back({gap.place.x(), gap.place.y(), gap.place.z()});
   return warning;
@@ -88,6 +91,24 @@ std::string intended_text(const GapGroup& group, const std::string& ambient) {
       "a sheet as thick as the gap, closes {}",
       group.gaps.size(), group.gaps.size() == 1 ? "" : "s", group.size(), group.parts(), ambient,
       group.gaps.size() == 1 ? "it" : "them");
+}
+
+std::string accepted_text(const GapGroup& group, const std::string& ambient) {
+  return fmt::format("{} gap{} of {} between parts {}, accepted by [[gap]]: filled with {}",
+                     group.gaps.size(), group.gaps.size() == 1 ? "" : "s", group.size(), group.parts(),
+                     ambient);
+}
+
+/// The [[gap]] that accepts a gap; null: none.
+const scene_file::GapSpec* accepted_by(const scene_file::SceneSpec& spec, const contact::SmallGap& gap) {
+  for (const scene_file::GapSpec& accepted : spec.gaps) {
+    const auto matches = [&](const std::string& a, const std::string& b) {
+      return core::matches_pattern(accepted.between[0].name, a) &&
+             core::matches_pattern(accepted.between[1].name, b);
+    };
+    if (matches(gap.a, gap.b) || matches(gap.b, gap.a)) return &accepted;
+  }
+  return nullptr;
 }
 
 }  // namespace
@@ -107,10 +128,13 @@ GapFindings find_gaps(const simulation::SimulationPoint& point, bool every_one) 
   const double tolerance_mm = spec.run.contact_tolerance_mm;
   std::vector<GapGroup> groups;
   std::map<std::string, std::size_t> known;
+  std::set<const scene_file::GapSpec*> needed;
   for (const contact::SmallGap& gap : contact::find_small_gaps(point.built()->placed, tolerance_mm)) {
     std::string a = core::pattern_of(gap.a), b = core::pattern_of(gap.b);
     if (b < a) std::swap(a, b);
-    std::string key = (one_builder(gap) ? "1" : "0") + a + '\n' + b;
+    const scene_file::GapSpec* const accepted = accepted_by(spec, gap);
+    if (accepted) needed.insert(accepted);
+    std::string key = (one_builder(gap) ? "1" : accepted ? "2" : "0") + a + '\n' + b;
     if (every_one) key += '\n' + gap.a + '\n' + gap.b;
     const auto [at, is_new] = known.try_emplace(key, groups.size());
     if (is_new) groups.push_back({a, b, {}});
@@ -122,8 +146,15 @@ GapFindings find_gaps(const simulation::SimulationPoint& point, bool every_one) 
   for (const GapGroup& group : groups)
     if (one_builder(group.gaps.front()))
       findings.intended.push_back(intended_text(group, spec.ambient.name));
+    else if (accepted_by(spec, group.gaps.front()))
+      findings.intended.push_back(accepted_text(group, spec.ambient.name));
     else
       findings.warnings.push_back(warning_of(group, point.built()->placed, spec.ambient.name, tolerance_mm));
+  for (const scene_file::GapSpec& gap : spec.gaps)
+    if (!needed.contains(&gap))
+      findings.intended.push_back(
+          fmt::format("[[gap]] at {}: there is no small gap between \"{}\" and \"{}\"", gap.where.text(),
+                      gap.between[0].name, gap.between[1].name));
   return findings;
 }
 

@@ -16,7 +16,8 @@ struct GapFindings {
   /// Gaps that may be mistakes: one for all between parts of the same two patterns, or for each, the one with
   /// the largest area first; with the places of its gaps.
   std::vector<core::Problem> warnings;
-  /// Gaps that a builder left between its own parts, one text for each pair of patterns.
+  /// Gaps that a builder left between its own parts, and those of [[gap]], one text for each pair of
+  /// patterns; and each [[gap]] that no gap is of.
   std::vector<std::string> intended;
 };
 /// @param every_one  a warning for each gap

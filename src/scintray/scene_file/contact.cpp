@@ -67,4 +67,19 @@ std::vector<ContactSpec> read_contacts(const config::TomlTable& scene,
   return contacts;
 }
 
+std::vector<GapSpec> read_gaps(const config::TomlTable& scene, const std::vector<std::string>& part_names) {
+  std::vector<GapSpec> gaps;
+  for (const config::TomlTable& table : scene.tables("gap")) {
+    GapSpec gap;
+    gap.where = table.where();
+    const std::vector<std::string> names = table.strings("between", 2);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      gap.between[i] = {names[i], table.where("between")};
+      expect_parts(table, "between", gap.between[i], part_names);
+    }
+    gaps.push_back(std::move(gap));
+  }
+  return gaps;
+}
+
 }  // namespace scintray::scene_file

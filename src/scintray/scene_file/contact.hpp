@@ -1,5 +1,5 @@
 #pragma once
-/// [[contact]]: the optical contact between faces that touch. Lengths mm.
+/// [[contact]]: the optical contact between faces that touch; [[gap]]: small gaps that are meant. Lengths mm.
 
 #include <array>
 #include <optional>
@@ -42,6 +42,16 @@ struct ContactSpec {
   core::FileLocation where;
   bool operator==(const ContactSpec&) const = default;
 };
+
+/// Parts between which small gaps are meant: `check` counts them, and does not warn of them.
+struct GapSpec {
+  std::array<config::NameRef, 2> between;  ///< names, or patterns with "*" (core/pattern.hpp)
+  core::FileLocation where;
+  bool operator==(const GapSpec&) const = default;
+};
+
+/// [[gap]] of a scene; `part_names` are those of all parts.
+std::vector<GapSpec> read_gaps(const config::TomlTable& scene, const std::vector<std::string>& part_names);
 
 /// [[contact]] of a scene; `part_names` are those of all parts, `parts` those with known faces.
 std::vector<ContactSpec> read_contacts(const config::TomlTable& scene,

@@ -169,6 +169,7 @@ SceneSpec read_from(const config::TomlTable& root, const std::string& text, cons
   scene.parts = std::move(bodies.parts);
   scene.groups = std::move(bodies.groups);
   scene.contacts = read_contacts(root, names, scene.parts);
+  scene.gaps = read_gaps(root, names);
   std::move(bodies.contacts.begin(), bodies.contacts.end(), std::back_inserter(scene.contacts));
   read_source(root, names, scene);
   scene.run = read_run(root);

@@ -29,6 +29,7 @@ struct SceneSpec {
   std::vector<PartSpec> parts;
   std::vector<GroupSpec> groups;
   std::vector<ContactSpec> contacts;
+  std::vector<GapSpec> gaps;
   SourceSpec source;                       ///< [source] of photons
   std::optional<GammaSpec> energy_source;  ///< event source; then there is no `source`
   RunSpec run;
