@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* kPageStyle = R"css(
 :root { color-scheme: light dark; --paper:#ffffff; --ink:#1b1f24; --soft:#5c6670; --rule:#e3e7eb; }
-@media (prefers-color-scheme: dark) {
+@media screen and (prefers-color-scheme: dark) {
 :root { --paper:#14181c; --ink:#e6e9ec; --soft:#9aa5af; --rule:#2c333a; } }
 * { box-sizing: border-box; }
 body { margin: 0 auto; max-width: 66rem; padding: 2rem 1.5rem 4rem; background: var(--paper); color: var(--ink);
@@ -29,7 +29,7 @@ figcaption span { color: var(--soft); font-weight: 400; }
 @media (max-width: 40rem) { body { padding: 1.25rem 1rem 3rem; } h1 { font-size: 1.4rem; }
   .contents ol { columns: auto; }
   .canvas svg.plot { min-width: 30rem; } .canvas svg.plot[data-wide] { min-width: 42rem; } }
-@media print { .contents { display: none; } }
+@media print { :root { color-scheme: light; } .contents { display: none; } }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: .88rem; }
 th, td { padding: .25rem .65rem; text-align: left; border-bottom: 1px solid var(--rule); }
 thead th { color: var(--soft); } .n { text-align: right; white-space: nowrap; } tbody th { font-weight: 500; }
