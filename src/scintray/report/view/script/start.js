@@ -230,7 +230,9 @@ function view_start(host) {
   if (host.classList.contains("narrow")) view_element("menu").click();
   view.camera.look(3);
   view.drawing.renderer.setAnimationLoop(view.drawing.frame);
-  window.scintrayView = { data, paths: paths.length, counts: view.drawing.counts, turn: view.camera.turn,
+  // For tools/pages_check, which computes by itself what lies under a place of the screen.
+  window.scintrayView = { data, shapes, histories: paths, middle: view.middle, camera: view.camera.camera,
+    paths: paths.length, counts: view.drawing.counts, turn: view.camera.turn,
     show_path: (i) => { view.paths.choose(paths[i]); properties.show_path(paths[i]); },
     get frames() { return view.drawing.counts.frames; } };
 }
