@@ -28,8 +28,9 @@ function faults() {
   }
   // A heading with nothing beneath it.
   const bare = [...document.querySelectorAll("h2")].filter(shown).filter((head) => {
-    const next = head.nextElementSibling;
-    return next && !shown(next);
+    let next = head.nextElementSibling;
+    while (next && !shown(next) && next.tagName !== "H2") next = next.nextElementSibling;
+    return !next || next.tagName === "H2";
   }).map(name);
   return { cut, controls, bare, paper: getComputedStyle(document.body).backgroundColor, title: Boolean(document.querySelector("h1").checkVisibility()) };
 }

@@ -60,10 +60,7 @@ details { margin-top: .75rem; } summary { cursor: pointer; color: var(--soft); }
 pre { background: var(--panel); padding: 1rem; overflow-x: auto; font-size: .85rem; line-height: 1.45; }
 @media (max-width: 40rem) { table.pairs th { white-space: normal; } .bars { grid-template-columns: 1fr; } .who { margin-bottom: -.2rem; }
   .headline b { font-size: 1.6rem; } }
-@media print { body { max-width: none; padding: 0; font-size: 11pt; } pre { white-space: pre-wrap; }
-  .bar span, .key i { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
-  .scroll { overflow: visible; } table { font-size: .72rem; } th, td { padding: .2rem .4rem; }
-  thead th { overflow-wrap: anywhere; } }
+@media print { .bar span, .key i { print-color-adjust: exact; -webkit-print-color-adjust: exact; } }
 )css";
 
 std::string partial_banner(const tally::RunResult& run) {
