@@ -40,7 +40,7 @@ td.why { color: var(--soft); min-width: 7.5rem; white-space: normal; font-size: 
 constexpr const char* kPrintStyle = R"css(
 @media print { :root { color-scheme: light; } .contents { display: none; } body { max-width: none; padding: 0; font-size: 11pt; }
   pre { white-space: pre-wrap; overflow-wrap: anywhere; } .scroll { overflow: visible; } table { font-size: .72rem; }
-  th, td, .n { padding: .2rem .4rem; white-space: normal; } td.why { min-width: 0; } thead th { overflow-wrap: anywhere; } }
+  th, td, .n { padding: .2rem .4rem; white-space: normal; } td.why { min-width: 0; } }
 )css";
 
 }  // namespace
