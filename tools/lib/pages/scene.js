@@ -16,8 +16,12 @@ async function open_scene(page) {
     await open.click();
   }
   await page.waitForFunction(() => window.scintrayView && window.scintrayView.frames > 0, null, { polling: 20, timeout: 60000 });
-  return page.evaluate(() => new Promise((done) => requestAnimationFrame(() =>
-    setTimeout(() => done((performance.now() - (window.opened_ms || 0)) / 1000), 0))));
+  return page.evaluate(() => new Promise((done) => requestAnimationFrame(() => setTimeout(() => {
+    // Reading a point waits until the picture is drawn.
+    const canvas = document.getElementById("scene"), gl = canvas.getContext("webgl2") || canvas.getContext("webgl");
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+    done((performance.now() - (window.opened_ms || 0)) / 1000);
+  }, 0))));
 }
 
 class Scene {
@@ -280,6 +284,18 @@ class Scene {
     return painted.filter((value) => value.startsWith("tally:")).length;
   }
 
+  // The picture has as many points as the window has room for, also when it changes.
+  async follow_window() {
+    const window_size = this.page.viewportSize();
+    for (const width of [window_size.width - 60, window_size.width]) {
+      await this.page.setViewportSize({ ...window_size, width });
+      await this.page.waitForTimeout(100);
+      await this.seen("rest");
+      const [points, room] = await this.page.$eval("#scene", (canvas) => [canvas.width, canvas.clientWidth * Math.min(2, devicePixelRatio)]);
+      this.expect(Math.abs(points - room) <= 1, `the picture is ${room} points wide, not ${points}`);
+    }
+  }
+
   // Frames a second while photons are played, and while the scene turns.
   async rates(plays) {
     await this.panel(true);
@@ -332,6 +348,7 @@ async function scene(page, expect) {
   if (paths) expect(result.played > 0, "playing draws what is new");
   expect(result.turned > 0, "turning draws");
   await one.set("time", "1");
+  await one.follow_window();
   return result;
 }
 

@@ -170,7 +170,14 @@ function view_listen(view, canvas, properties) {
   const lights = () => { view.drawing.renderer.setClearColor(dark.matches ? 0x14181c : 0xffffff); view.redraw(); };
   dark.addEventListener("change", () => { lights(); view.colours.paint(); });
   lights();
-  new ResizeObserver(view.drawing.resize).observe(host);
+  // What is observed first is the size that the first picture has.
+  const size = () => host.clientWidth + " x " + host.clientHeight;
+  let drawn_size = size();
+  new ResizeObserver(() => {
+    if (size() === drawn_size) return;
+    drawn_size = size();
+    view.drawing.resize();
+  }).observe(host);
 
   const pick = (event) => {
     const ray = view.camera.ray_through(event.clientX, event.clientY), path = view.paths.hit(ray, view.cut.keeps);
