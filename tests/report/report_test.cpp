@@ -348,7 +348,7 @@ double contrast(const std::string& a, const std::string& b) {
 std::map<std::string, std::string> colours_of(const std::string& style, bool dark) {
   std::map<std::string, std::string> colours;
   const std::regex variable("--([a-z0-9-]+):(#[0-9a-f]+)"),
-      scheme(R"(@media \(prefers-color-scheme: dark\) \{\s*:root \{[^}]*\})");
+      scheme(R"(@media screen and \(prefers-color-scheme: dark\) \{\s*:root \{[^}]*\})");
   const auto read = [&](const std::string& text) {
     for (auto at = std::sregex_iterator(text.begin(), text.end(), variable); at != std::sregex_iterator();
          ++at)

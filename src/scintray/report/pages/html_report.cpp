@@ -28,7 +28,7 @@ using namespace report;
 constexpr const char* kReportStyle = R"css(
 :root { --panel:#f6f8fa; --alarm:#8a1c00; --alarm-paper:#fdeee9;
   --f0:#0072b2; --f1:#7fb8d8; --f2:#c9a227; --f3:#b0562a; --f4:#66727c; --f5:#a34f7e; }
-@media (prefers-color-scheme: dark) {
+@media screen and (prefers-color-scheme: dark) {
 :root { --panel:#1c2227; --alarm:#ffb4a0; --alarm-paper:#40180d;
   --f0:#2678b0; --f1:#2f5f7d; --f2:#a9861a; --f3:#a8562f; --f4:#66727c; --f5:#a3578a; } }
 h3 { font-size: 1rem; margin: 1.25rem 0 .25rem; }
@@ -50,7 +50,7 @@ figcaption { color: var(--soft); font-size: .88rem; font-weight: 400; margin: 0;
 .bar span { color: #fff; font-size: .75rem; line-height: 1.5rem; text-align: center; overflow: hidden;
   white-space: nowrap; box-shadow: inset -1px 0 0 var(--paper); }
 .bar .f1, .bar .f2 { color: #10161b; }
-@media (prefers-color-scheme: dark) { .bar .f1 { color: #fff; } }
+@media screen and (prefers-color-scheme: dark) { .bar .f1 { color: #fff; } }
 .f0 { background: var(--f0); } .f1 { background: var(--f1); } .f2 { background: var(--f2); }
 .f3 { background: var(--f3); } .f4 { background: var(--f4); } .f5 { background: var(--f5); }
 .key { display: flex; flex-wrap: wrap; gap: .25rem 1.25rem; font-size: .88rem; margin: 0 0 .6rem; }
@@ -60,9 +60,7 @@ details { margin-top: .75rem; } summary { cursor: pointer; color: var(--soft); }
 pre { background: var(--panel); padding: 1rem; overflow-x: auto; font-size: .85rem; line-height: 1.45; }
 @media (max-width: 40rem) { table.pairs th { white-space: normal; } .bars { grid-template-columns: 1fr; } .who { margin-bottom: -.2rem; }
   .headline b { font-size: 1.6rem; } }
-@media print { body { max-width: none; padding: 0; font-size: 11pt; } pre { white-space: pre-wrap; }
-  .bar span, .key i { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
-  .scroll { overflow: visible; } table { font-size: .72rem; } th, td { padding: .2rem .4rem; } }
+@media print { .bar span, .key i { print-color-adjust: exact; -webkit-print-color-adjust: exact; } }
 )css";
 
 std::string partial_banner(const tally::RunResult& run) {

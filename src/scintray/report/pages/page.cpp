@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* kPageStyle = R"css(
 :root { color-scheme: light dark; --paper:#ffffff; --ink:#1b1f24; --soft:#5c6670; --rule:#e3e7eb; }
-@media (prefers-color-scheme: dark) {
+@media screen and (prefers-color-scheme: dark) {
 :root { --paper:#14181c; --ink:#e6e9ec; --soft:#9aa5af; --rule:#2c333a; } }
 * { box-sizing: border-box; }
 body { margin: 0 auto; max-width: 66rem; padding: 2rem 1.5rem 4rem; background: var(--paper); color: var(--ink);
@@ -29,12 +29,18 @@ figcaption span { color: var(--soft); font-weight: 400; }
 @media (max-width: 40rem) { body { padding: 1.25rem 1rem 3rem; } h1 { font-size: 1.4rem; }
   .contents ol { columns: auto; }
   .canvas svg.plot { min-width: 30rem; } .canvas svg.plot[data-wide] { min-width: 42rem; } }
-@media print { .contents { display: none; } }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: .88rem; }
 th, td { padding: .25rem .65rem; text-align: left; border-bottom: 1px solid var(--rule); }
 thead th { color: var(--soft); } .n { text-align: right; white-space: nowrap; } tbody th { font-weight: 500; }
 td.why { color: var(--soft); min-width: 7.5rem; white-space: normal; font-size: .8rem; line-height: 1.35; }
 .small-spectrum { display: block; } .small-spectrum path { fill: var(--c0); }
+)css";
+
+// After all other styles, which it overrides. Nothing scrolls on paper: wide tables break their lines.
+constexpr const char* kPrintStyle = R"css(
+@media print { :root { color-scheme: light; } .contents { display: none; } body { max-width: none; padding: 0; font-size: 11pt; }
+  pre { white-space: pre-wrap; overflow-wrap: anywhere; } .scroll { overflow: visible; } table { font-size: .72rem; }
+  th, td, .n { padding: .2rem .4rem; white-space: normal; } td.why { min-width: 0; } }
 )css";
 
 }  // namespace
@@ -74,7 +80,7 @@ std::string html_frame(const std::string& title, const std::string& under, const
   page += "<meta http-equiv=\"Content-Security-Policy\" content=\"" + content_policy(hashes) + "\"/>\n";
   page += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>" +
           escape_html(title) + "</title>\n<style>" + kPageStyle + style + svg_plot_style() +
-          std::string(page_script_style()) + "</style>\n</head>\n<body>\n";
+          std::string(page_script_style()) + kPrintStyle + "</style>\n</head>\n<body>\n";
   page += "<header>\n<h1>" + escape_html(title) + "</h1>\n<p class=\"under\">" + escape_html(under) +
           "</p>\n</header>\n";
   page += "<main>\n" + with_contents(body) + "</main>\n";

@@ -69,7 +69,7 @@ std::string svg_file(const Plot& plot) {
   drawing.replace(0, opening.size(), "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"plot\"");
   const std::string colours =
       ":root { --paper:#ffffff; --ink:#1b1f24; --soft:#5c6670; --rule:#e3e7eb; }\n"
-      "@media (prefers-color-scheme: dark) {\n"
+      "@media screen and (prefers-color-scheme: dark) {\n"
       ":root { --paper:#14181c; --ink:#e6e9ec; --soft:#9aa5af; --rule:#2c333a; } }\n";
   const std::size_t inside = drawing.find(">\n") + 2;
   drawing.insert(inside,
@@ -80,11 +80,11 @@ std::string svg_file(const Plot& plot) {
 std::string svg_plot_style() {
   return R"css(
 :root { --c0:#0072b2; --c1:#d55e00; --c2:#009e73; --c3:#b35a8c; --c4:#b8860b; --c5:#3a9bd6; --c6:#555555; }
-@media (prefers-color-scheme: dark) {
+@media screen and (prefers-color-scheme: dark) {
 :root { --c0:#56b4e9; --c1:#f0894a; --c2:#2fc79c; --c3:#e096bf; --c4:#e6b822; --c5:#9ad0f2; --c6:#bbbbbb; } }
 /* Colours of names: 4.5 to 1 against the page. */
 :root { --t0:#0072b2; --t1:#a84a00; --t2:#00704f; --t3:#9a4476; --t4:#7d5b00; --t5:#1c6ea4; --t6:#555555; }
-@media (prefers-color-scheme: dark) {
+@media screen and (prefers-color-scheme: dark) {
 :root { --t0:#56b4e9; --t1:#f0894a; --t2:#2fc79c; --t3:#e096bf; --t4:#e6b822; --t5:#9ad0f2; --t6:#bbbbbb; } }
 .c0 { --t: var(--t0); } .c1 { --t: var(--t1); } .c2 { --t: var(--t2); } .c3 { --t: var(--t3); }
 .c4 { --t: var(--t4); } .c5 { --t: var(--t5); } .c6 { --t: var(--t6); }

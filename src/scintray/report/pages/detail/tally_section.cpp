@@ -174,7 +174,11 @@ std::string crosstalk_table(const tally::PointResult& point, const tally::TallyR
 
 std::string matrix_table(const tally::TallyResult& tally, std::uint64_t photons) {
   std::vector<std::string> head{axis_label(tally.axes[0])};
-  head.insert(head.end(), tally.axes[1].names.begin(), tally.axes[1].names.end());
+  for (std::string name : tally.axes[1].names) {
+    // Step events in words, which break where a table is wide.
+    if (tally.axes[1].variable == "occasion") std::replace(name.begin(), name.end(), '_', ' ');
+    head.push_back(std::move(name));
+  }
   std::string rows;
   const std::size_t columns = tally.axes[1].bins();
   for (std::size_t i = 0; i < std::min(tally.axes[0].bins(), kMostRows); ++i) {

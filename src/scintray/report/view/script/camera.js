@@ -7,20 +7,20 @@ function view_camera(view, canvas) {
   camera.up.set(0, 0, 1);
   const controls = new THREE.OrbitControls(camera, canvas);
   controls.enableKeys = false;  // arrow keys turn, below
-  controls.addEventListener("change", () => view.moved());
+  // A camera that is placed is not moving: its picture is drawn once, and whole.
+  let placing = false;
+  controls.addEventListener("change", () => placing ? view.redraw() : view.moved());
+  function place(target, way, distance) {
+    controls.target.set(...target);
+    camera.position.set(...way).normalize().multiplyScalar(distance).add(controls.target);
+    placing = true;
+    controls.update();
+    placing = false;
+    view.redraw();
+  }
+  const look = (number) => place([0, 0, 0], VIEW_SIDES[number], 1.9 * size * Math.max(1, 0.9 / camera.aspect));
+  const look_at = (target) => place(target, [0.2, -0.25, 0.15], 0.354 * size);
 
-  function look(number) {
-    controls.target.set(0, 0, 0);
-    camera.position.set(...VIEW_SIDES[number]).normalize().multiplyScalar(1.9 * size * Math.max(1, 0.9 / camera.aspect));
-    controls.update();
-    view.redraw();
-  }
-  function look_at(place) {
-    controls.target.set(...place);
-    camera.position.copy(controls.target).add(new THREE.Vector3(0.2, -0.25, 0.15).multiplyScalar(size));
-    controls.update();
-    view.redraw();
-  }
   // The middle of what the panel leaves free.
   function resize(wide, tall) {
     const panel = element("panel").getBoundingClientRect();

@@ -170,7 +170,14 @@ function view_listen(view, canvas, properties) {
   const lights = () => { view.drawing.renderer.setClearColor(dark.matches ? 0x14181c : 0xffffff); view.redraw(); };
   dark.addEventListener("change", () => { lights(); view.colours.paint(); });
   lights();
-  new ResizeObserver(view.drawing.resize).observe(host);
+  // What is observed first is the size that the first picture has.
+  const size = () => host.clientWidth + " x " + host.clientHeight;
+  let drawn_size = size();
+  new ResizeObserver(() => {
+    if (size() === drawn_size) return;
+    drawn_size = size();
+    view.drawing.resize();
+  }).observe(host);
 
   const pick = (event) => {
     const ray = view.camera.ray_through(event.clientX, event.clientY), path = view.paths.hit(ray, view.cut.keeps);
@@ -230,7 +237,9 @@ function view_start(host) {
   if (host.classList.contains("narrow")) view_element("menu").click();
   view.camera.look(3);
   view.drawing.renderer.setAnimationLoop(view.drawing.frame);
-  window.scintrayView = { data, paths: paths.length, counts: view.drawing.counts, turn: view.camera.turn,
+  // For tools/pages_check, which computes by itself what lies under a place of the screen.
+  window.scintrayView = { data, shapes, histories: paths, middle: view.middle, camera: view.camera.camera,
+    paths: paths.length, counts: view.drawing.counts, turn: view.camera.turn,
     show_path: (i) => { view.paths.choose(paths[i]); properties.show_path(paths[i]); },
     get frames() { return view.drawing.counts.frames; } };
 }
