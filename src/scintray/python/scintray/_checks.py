@@ -49,6 +49,21 @@ def numbers(values: Any, name: str, shape: Sequence[int], unit: str = "") -> np.
     return array
 
 
+def _plain(value: Any) -> Any:
+    """A number of NumPy or xarray, or an array of one without dimensions, as Python has it."""
+    array = value if isinstance(value, np.generic) else np.asarray(value) if hasattr(value, "__array__") else None
+    return array.item() if array is not None and np.ndim(array) == 0 else value
+
+
+def _shown(value: Any) -> str:
+    """The value in a message, which is no book."""
+    try:
+        text = repr(value)
+    except ValueError:  # a whole number of thousands of digits
+        return "a number of very many digits"
+    return text if len(text) <= 200 else text[:197] + "..."
+
+
 def number(value: Any, name: str, unit: str = "", *, least: float = -math.inf, above: float = -math.inf,
            below: float = math.inf) -> float:
     """A finite number from ``least`` on, above ``above`` and below ``below``."""
@@ -56,25 +71,32 @@ def number(value: Any, name: str, unit: str = "", *, least: float = -math.inf, a
     for bound, word in ((least, "from"), (above, "above"), (below, "below")):
         if math.isfinite(bound):
             wanted += f", {word} {bound:g}"
-    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, float, np.integer, np.floating)) \
-            or not math.isfinite(value):
-        raise InputError(f"{name} is {value!r}; expected {wanted}", f"write {name}=1.0, for example")
-    if not (value >= least and value > above and value < below):
-        raise InputError(f"{name} is {value:g}; expected {wanted}", "give a number in this range")
-    return float(value)
+    value = _plain(value)
+    try:
+        found = math.nan if isinstance(value, bool) or not isinstance(value, (int, float)) else float(value)
+    except OverflowError:
+        found = math.inf
+    if not math.isfinite(found):
+        raise InputError(f"{name} is {_shown(value)}; expected {wanted}", f"write {name}=1.0, for example")
+    if not (found >= least and found > above and found < below):
+        raise InputError(f"{name} is {found:g}; expected {wanted}", "give a number in this range")
+    return found
 
 
 def whole(value: Any, name: str, *, least: int = 0, most: int = _MOST_WHOLE) -> int:
-    """A whole number."""
-    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, np.integer)) or not least <= value <= most:
+    """A whole number, which may be written as 1e6."""
+    value = _plain(value)
+    if isinstance(value, float) and value.is_integer() and abs(value) <= 2**53:
+        value = int(value)
+    if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= most:
         to = "" if most == _MOST_WHOLE else f" to {most}"
-        raise InputError(f"{name} is {value!r}; expected a whole number from {least}{to or ' on'}",
-                         f"write {name}={max(least, 1)}, for example")
-    return int(value)
+        raise InputError(f"{name} is {_shown(value)}; expected a whole number from {least}{to or ' on'}",
+                         f"write {name}={min(max(least, 1), most)}, for example")
+    return value
 
 
-def whole_or_none(value: Any, name: str, *, least: int = 0) -> Optional[int]:
-    return None if value is None else whole(value, name, least=least)
+def whole_or_none(value: Any, name: str, *, least: int = 0, most: int = _MOST_WHOLE) -> Optional[int]:
+    return None if value is None else whole(value, name, least=least, most=most)
 
 
 def positive_integer(value: Any, name: str) -> Optional[int]:
@@ -82,31 +104,55 @@ def positive_integer(value: Any, name: str) -> Optional[int]:
     return whole_or_none(value, name, least=1)
 
 
+def thread_count(value: Any) -> Optional[int]:
+    """None (all cores), or a number of threads."""
+    return whole_or_none(value, "threads", least=1, most=4096)
+
+
+def index_of(value: Any, name: str, count: int) -> int:
+    """An index of ``count`` things, as Python counts: below 0 from the end."""
+    value = _plain(value)
+    if isinstance(value, bool) or not isinstance(value, int) or not -count <= value < count:
+        raise InputError(f"{name} is {_shown(value)}; expected a whole number from 0 to {count - 1}",
+                         f"write {name}=0, for example")
+    return value % count
+
+
 def text_of(value: Any, name: str) -> str:
     if not isinstance(value, str):
-        raise InputError(f"{name} is {value!r}; expected text", f'write {name}="...", in quotes')
+        raise InputError(f"{name} is {_shown(value)}; expected text", "write it in quotes")
+    return _encoded(value, name)
+
+
+def _encoded(value: str, name: str) -> str:
+    try:
+        value.encode("utf-8")
+    except UnicodeEncodeError as error:
+        raise InputError(f"{name} is {value!r}, which is not Unicode", "give text, or a name, of valid characters") \
+            from error
     return value
 
 
 def flag(value: Any, name: str) -> bool:
-    if not isinstance(value, (bool, np.bool_)):
-        raise InputError(f"{name} is {value!r}; expected True or False", f"write {name}=True, for example")
+    value = _plain(value)
+    if not isinstance(value, bool) and value not in (0, 1):
+        raise InputError(f"{name} is {_shown(value)}; expected True or False", f"write {name}=True, for example")
     return bool(value)
 
 
 def one_of(value: Any, name: str, choices: Sequence[str]) -> str:
     if not isinstance(value, str) or value not in choices:
-        raise InputError(f"{name} is {value!r}", "it is " + " or ".join(f'"{choice}"' for choice in choices))
+        raise InputError(f"{name} is {_shown(value)}", "it is " + " or ".join(f'"{choice}"' for choice in choices))
     return value
 
 
 def path_text(value: Any, name: str = "the path") -> str:
     """The path of a file as text."""
     if not isinstance(value, (str, os.PathLike)) or not isinstance(os.fspath(value), str):
-        raise InputError(f"{name} is {value!r}; expected the path of a file", 'write it as text, "folder/file"')
+        raise InputError(f"{name} is {_shown(value)}; expected the path of a file", 'write it as text, "folder/file"')
     if "\0" in os.fspath(value):
         raise InputError(f"{name} is {value!r}, which has a character that no path can have", "remove the character 0")
-    return os.fspath(value)
+    return _encoded(os.fspath(value), name)
 
 
 def path_of(value: Any, name: str = "the path") -> Path:
@@ -115,6 +161,9 @@ def path_of(value: Any, name: str = "the path") -> Path:
 
 def listed(values: Any, name: str, of: str) -> List[Any]:
     """The elements of a list, tuple or array."""
-    if isinstance(values, (str, bytes, dict)) or not hasattr(values, "__iter__"):
-        raise InputError(f"{name} is {values!r}; expected a list of {of}", f"write {name}=[...]")
-    return list(values)
+    try:
+        if not isinstance(values, (str, bytes, dict)):
+            return list(values)
+    except TypeError:
+        pass
+    raise InputError(f"{name} is {_shown(values)}; expected a list of {of}", f"write {name}=[...]")

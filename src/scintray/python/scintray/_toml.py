@@ -92,8 +92,8 @@ def steps_of(path: Path) -> List[Union[str, int]]:
     steps: List[Union[str, int]] = []
     if isinstance(path, str):
         steps += path.split(".")
-    elif isinstance(path, (list, tuple)) and all(isinstance(step, (str, int)) for step in path):
-        steps += path
+    elif isinstance(path, (list, tuple)) and all(isinstance(step, (str, int, np.integer)) for step in path):
+        steps += [int(step) if isinstance(step, np.integer) else step for step in path]
     if not steps or any(step == "" for step in steps):
         raise InputError(f"{path!r} is not the path of a key", 'write it as "part.crystal.surface"')
     return steps

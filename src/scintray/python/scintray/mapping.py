@@ -9,7 +9,7 @@ from typing import Any, Dict, List, Optional, Sequence, Tuple, Union
 import numpy as np
 
 from . import _core
-from ._checks import (flag, names_hint, number, numbers, one_of, path_text, positive_integer, text_of, whole,
+from ._checks import (flag, index_of, names_hint, number, numbers, one_of, path_text, positive_integer, thread_count, text_of, whole,
                       whole_or_none)
 from ._tools import Estimate, Shown, axes_for, dataframe, estimate, html_table
 from .errors import Cancelled, InputError
@@ -66,7 +66,7 @@ class ResponseMap:
         return cls(_guarded(as_scene(scene), lambda text, file: watched(progress, lambda call: _core.build_response(
             text, file, pitch, whole(photons_per_cell, "photons_per_cell", least=1, most=2**32 - 1),
             whole(delays, "delays", least=1, most=2**32 - 1), direction,
-            whole(photons_per_channel, "photons_per_channel", least=1), positive_integer(threads, "threads"), start,
+            whole(photons_per_channel, "photons_per_channel", least=1), thread_count(threads), start,
             call))))
 
     @classmethod
@@ -103,7 +103,7 @@ class ResponseMap:
             source = self._file if self._file is not None else os.path.join(folder, "map.h5")
             target = os.path.join(folder, "results.h5") if output is None else path_text(output, "output")
             data, raised = _guarded(as_scene(scene), lambda text, file: watched(progress, lambda call: _core.run_mapped(
-                text, file, source, positive_integer(threads, "threads"), whole_or_none(seed, "seed"), positive_integer(events, "events"),
+                text, file, source, thread_count(threads), whole_or_none(seed, "seed"), positive_integer(events, "events"),
                 target, output is not None, call)))
         if isinstance(raised, KeyboardInterrupt):
             raise Cancelled("stopped by Ctrl-C", Results(data)) from raised
@@ -117,7 +117,7 @@ class ResponseMap:
         part = part or self.parts[0]
         share = self.probability(part)
         if channel is not None:
-            whole(channel, "channel", most=len(self.channels) - 1)
+            channel = index_of(channel, "channel", len(self.channels))
         share = share.sum(axis=-1) if channel is None else share[..., channel]
         low, pitch, cells = self.grids[part]["low_mm"], self.grids[part]["pitch_mm"], share.shape
         image = ax.imshow(share[:, cells[1] // 2, :].T, origin="lower", aspect="auto",
@@ -229,16 +229,17 @@ def fit(scene: Union[Scene, PathLike], *, threads: Optional[int] = None, photons
     Raises InputError for a scene without [fit] and for every mistake of it; Cancelled.
     """
     return Fit(_guarded(as_scene(scene), lambda text, file: watched(progress, lambda call: _core.fit_scene(
-        text, file, positive_integer(threads, "threads"), positive_integer(photons, "photons"),
+        text, file, thread_count(threads), positive_integer(photons, "photons"),
         positive_integer(events, "events"), call, None if output is None else path_text(output, "output")))))
 
 
 class ReweightedLight(List[Dict[str, Any]]):
     """Detected light for other values of a property: a list of dictionaries, as ``reweight`` describes them."""
 
-    def __init__(self, entries: Sequence[Dict[str, Any]], label: str) -> None:
+    def __init__(self, entries: Sequence[Dict[str, Any]] = (), label: str = "value", unit: str = "1") -> None:
         super().__init__(entries)
         self.label = label
+        self.unit = unit
 
     def to_dataframe(self) -> Any:
         """A DataFrame with a row an entry; units in ``attrs["units"]``."""
@@ -247,7 +248,8 @@ class ReweightedLight(List[Dict[str, Any]]):
         for name in ("traced", "detected", "relative"):
             columns[name] = [entry[name].value for entry in self]
             columns[f"{name}_error"] = [entry[name].error for entry in self]
-        return dataframe(columns, {name: "1" for name in columns if name not in ("value", "valid", "reason")})
+        return dataframe(columns, {name: self.unit if name == "value" else "1" for name in columns
+                                   if name not in ("valid", "reason")})
 
     def plot(self, ax: Optional[Any] = None) -> Any:
         """Draws the detected share against the values, a curve for each point; open circles where the histories do not
@@ -288,5 +290,6 @@ def reweight(path: PathLike, name: str, values: Sequence[float], *, property: st
         for key in ("traced", "detected", "relative"):
             entry[key] = estimate(entry[key])
     what = property.replace("_", " ") + f" of {name}"
-    unit = "" if property == "reflectance" else " (mm)"
-    return ReweightedLight(entries, f"factor on the {what}" if factors else what + unit)
+    if factors:
+        return ReweightedLight(entries, f"factor on the {what}")
+    return ReweightedLight(entries, what) if property == "reflectance" else ReweightedLight(entries, f"{what} (mm)", "mm")

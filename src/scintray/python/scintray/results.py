@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Optional, Sequence, Union
+from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Optional, Sequence, Union, overload
 
 import numpy as np
 
@@ -194,9 +194,9 @@ class Point:
         return f"Point({label + ': ' if label else ''}detected {self.detected} of {self.photons} photons)"
 
     def _repr_html_(self) -> str:
-        return self.html()
+        return self._html("")
 
-    def html(self, before: str = "") -> str:
+    def _html(self, before: str) -> str:
         """The table that notebooks show, with a text before its title."""
         rows = [(name, int(n), str(f)) for (name, f), n in zip(self.fates.items(), self.fate_count) if n]
         return html_table(before + (", ".join(f"{k} = {v}" for k, v in self.parameters.items()) or "Fates of the photons"),
@@ -238,19 +238,29 @@ class Results:
     def __len__(self) -> int:
         return len(self._points)
 
-    def __getitem__(self, number: Any) -> Any:
+    @overload
+    def __getitem__(self, number: int) -> Point: ...
+
+    @overload
+    def __getitem__(self, number: slice) -> List[Point]: ...
+
+    def __getitem__(self, number: Union[int, slice]) -> Union[Point, List[Point]]:
         """The ``Point`` of a number, from the end where it is negative, or the list of those of a slice."""
         if isinstance(number, slice):
             return [self[i] for i in range(*number.indices(len(self)))]
-        if isinstance(number, bool) or not isinstance(number, (int, np.integer)):
-            raise InputError(f"the point is {number!r}; expected a whole number", "points count from 0")
-        if not -len(self) <= number < len(self):
-            raise IndexError(f"there is no point {number}; the results have {len(self)}")
-        number %= len(self)
+        number = self._number(number)
         point = self._points[number]
         if point is None:
             point = self._points[number] = Point(self._open().point(number), self._header)
         return point
+
+    def _number(self, number: Any) -> int:
+        """The number of a point that there is. Raises InputError for what is no whole number; IndexError."""
+        if isinstance(number, bool) or not isinstance(number, (int, np.integer)):
+            raise InputError(f"the point is {number!r}; expected a whole number", "points count from 0")
+        if not -len(self) <= number < len(self):
+            raise IndexError(f"there is no point {number}; the results have {len(self)}")
+        return int(number) % len(self)
 
     def __iter__(self) -> Iterator[Point]:
         return (self[i] for i in range(len(self)))
@@ -290,8 +300,7 @@ class Results:
 
     def events(self, point: int = 0) -> Events:
         """The events of a point. Raises InputError for a source of photons, which has none."""
-        self[point]
-        entry = self._open().events(point % len(self))
+        entry = self._open().events(self._number(point))
         if entry is None:
             raise InputError("the run has no events: its source emits photons",
                              'use a source of the type "gamma_events", "gammas", "hits" or "photon_list"')
@@ -301,9 +310,8 @@ class Results:
         """The ``Analysis`` of the events of a point: spectrum, photopeak, light against depth, depth of interaction,
         flood map, timing. ``settings`` is a text with [analysis] (docs/analysis.md) in place of the scene's."""
         from .analysis import Analysis
-        self[point]
         own = None if settings is None else text_of(settings, "settings")
-        return Analysis(_core.analyze(self._open(), point % len(self), own))
+        return Analysis(_core.analyze(self._open(), self._number(point), own))
 
     def to_dataframe(self) -> Any:
         """A DataFrame with a row a point: swept keys, photons, share and error of each fate."""
@@ -364,7 +372,7 @@ class Results:
 
     def _repr_html_(self) -> str:
         if len(self) == 1:
-            return self[0].html(f"{self.title}: ")
+            return self[0]._html(f"{self.title}: ")
         rows = [(*p.parameters.values(), p.photons, str(p.detected)) for p in self]
         return html_table(self.title, (*self.sweep_keys, "photons", "detected"), rows,
                           "" if self.complete else f"partial: {self.partial_reason}")

@@ -369,9 +369,10 @@ def as_scene(scene: Any) -> Scene:
 
 
 def _table(value: Any, name: str) -> Dict[str, Any]:
-    if not isinstance(value, Mapping):
-        raise InputError(f"{name} is {value!r}; expected a dictionary", 'write {"key": value, ...}')
-    return dict(value)
+    try:
+        return dict(value)
+    except (TypeError, ValueError) as error:
+        raise InputError(f"{name} is {value!r}; expected a dictionary", 'write {"key": value, ...}') from error
 
 
 def _write(path: Path, content: bytes) -> None:

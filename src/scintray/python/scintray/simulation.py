@@ -10,7 +10,7 @@ from typing import Any, Callable, Dict, List, Optional, Union
 import numpy as np
 
 from . import _core
-from ._checks import flag, numbers, one_of, path_text, positive_integer, whole, whole_or_none
+from ._checks import flag, numbers, one_of, path_text, positive_integer, thread_count, whole, whole_or_none
 from ._tools import Shown, axes_for, dataframe, html_table
 from .errors import Cancelled, ClosedError, InputError, Problem
 from .results import Results
@@ -214,7 +214,7 @@ class ProgressBar:
         elapsed = time.monotonic() - self._start
         share = f"{100.0 * done / of:3.0f} %  " if of else ""
         line = f"{share}{done} {thing}"
-        if of and 0 < done < of and not thing.startswith("%"):
+        if of and 0 < done < of and elapsed > 0.0 and not thing.startswith("%"):
             line += f", {done / elapsed:.3g}/s, {(of - done) * elapsed / done:.0f} s left"
         self._stream.write("\r" + line.ljust(self._width))
         self._stream.flush()
@@ -273,7 +273,7 @@ class Simulation:
         self.scene = as_scene(scene).copy()
         self.text, self.file = self.scene.text, self.scene.file
         self._core: Any = self._guard(lambda: _core.Session(
-            self.text, self.file, positive_integer(threads, "threads"), whole_or_none(seed, "seed"),
+            self.text, self.file, thread_count(threads), whole_or_none(seed, "seed"),
             positive_integer(photons, "photons"), positive_integer(events, "events"), flag(quick, "quick")))
 
     def _guard(self, work: Callable[[], Any]) -> Any:

@@ -8,7 +8,7 @@ from typing import Any, Dict, List, Optional, Sequence, Tuple, Union
 import numpy as np
 
 from . import _core
-from ._checks import flag, names_hint, number, numbers, one_of, path_text, text_of, whole
+from ._checks import flag, index_of, names_hint, number, numbers, one_of, path_text, text_of, whole
 from ._tools import Estimate, axes_for, dataframe, estimate, html_table, need
 from .errors import InputError
 from .simulation import Progress, watched
@@ -230,7 +230,7 @@ class SurfaceTable:
         return np.interp(np.radians(angles), nodes["incidence_rad"], nodes["reflectance"][:, 0]).reshape(shape)
 
     def _slice(self, number: int) -> Dict[str, Any]:
-        return self.slices[whole(number, "slice", most=len(self.slices) - 1)]
+        return self.slices[index_of(number, "slice", len(self.slices))]
 
     def plot(self, ax: Optional[Any] = None, slice: int = 0) -> Any:
         """Draws the reflectance against incidence, from both sides."""
@@ -305,7 +305,7 @@ class HeightMap:
     def synthesize(cls, kind: str, *, seed: int = 1, points: int = 0, **lengths: float) -> "HeightMap":
         """A map of a recipe: "ground", "polished", "gaussian" (rms_height_um, correlation_length_um; also
         lay_length_um, lay_angle_rad) or "k_correlation" (rms_height_um, knee_length_um, exponent); pitch_um for any.
-        Lengths in um; ``points`` along an edge (0: the recipe's). Raises InputError for a length that is missing,
+        Lengths in um (lay_length_um 0: no lay); ``points`` along an edge (0: the recipe's). Raises InputError for a length that is missing,
         unknown or out of range."""
         required = {"ground": (), "polished": (), "gaussian": ("rms_height_um", "correlation_length_um"),
                     "k_correlation": ("rms_height_um", "knee_length_um", "exponent")}
@@ -319,7 +319,8 @@ class HeightMap:
         if missing:
             raise InputError(f"a {kind} map needs " + " and ".join(missing), f"write {missing[0]}=1.0, for example")
         values = {name: number(value, name, "um" if name.endswith("_um") else "",
-                               **({} if name == "lay_angle_rad" else {"above": 0.0})) for name, value in lengths.items()}
+                               **({} if name == "lay_angle_rad" else {"least": 0.0} if name == "lay_length_um"
+                                  else {"above": 0.0})) for name, value in lengths.items()}
         return cls._of(_core.synthesize_map(kind, values, whole(seed, "seed"),
                                             whole(points, "points", most=_MOST_POINTS)))
 
