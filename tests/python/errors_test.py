@@ -177,6 +177,13 @@ class Objects(Case):
             (lambda: table.reflectance(91), 'incidence_deg has 91'),
             (lambda: table.reflectance(10, side='up'), "side is 'up'"),
             (lambda: table.reflectance(10, slice=9), 'slice is 9', 'from 0 to 0'),
+            (lambda: crystal().array('b', count=np.array(4), element={}), 'count is array(4)'),
+            (lambda: results.events(slice(0, 1)), 'the point is slice'),
+            (lambda: crystal().simulation(threads=2**40), 'threads is 1099511627776', 'to 4096'),
+            (lambda: goniometer('polished', 10, wavelength_nm=10**400), 'wavelength_nm is 1000'),
+            (lambda: crystal().run(photons=10**5000), 'photons is a number of very many digits'),
+            (lambda: scintray.Medium('a\ud800'), 'not Unicode'),
+            (lambda: scintray.open_results('a\udcff'), 'not Unicode'),
             (lambda: table.write(None), 'path is None'),
             (lambda: synthesize('gaussian'), 'rms_height_um and correlation_length_um'),
             (lambda: synthesize('gaussian', rms_height_um='a', correlation_length_um=1), "rms_height_um is 'a'"),
@@ -227,6 +234,20 @@ class Objects(Case):
         for work, *words in cases:
             with self.subTest(words[0]):
                 self.assertTrue(self.refused(work, *words).problems[0].hint)
+
+    def test_numbers_may_be_those_of_other_packages(self):
+        flat = scintray.HeightMap(np.zeros((8, 8)), 1.0, periodic=np.bool_(True))
+        table = flat.table(np.float32(1.5), rays=1e2, seed=np.uint8(3), directional=0)
+        self.assertEqual(table.reflectance(np.array(10.0), slice=-1).shape, ())
+        self.assertEqual(flat.visible_slope(np.array(10.0), rays=np.int64(100)).value, 0.0)
+        self.assertEqual(crystal().run(photons=1e3)[0].photons, 1000)
+        scene = crystal()
+        for i in np.arange(2):
+            scene['part', i, 'medium'] = 'glass'
+        self.assertEqual([part['medium'] for part in scene['part']], ['glass', 'glass'])
+        scintray.HeightMap.synthesize('gaussian', points=64, rms_height_um=0.3, correlation_length_um=2.0, lay_length_um=0)
+        scene.array('b', count=(2, 3), element=[('medium', 'LSO')])
+        self.assertEqual(scene['array.b.count'], [2, 3])
 
     def test_files_that_cannot_be_written(self):
         mesh = scintray.Mesh(BOX_VERTICES, BOX_TRIANGLES, unit='mm')

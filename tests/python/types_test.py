@@ -21,6 +21,8 @@ index: float = float(scintray.Medium("LSO").index[0])
 WRONG = {'scintray.Medium("LSO").colour': 'has no attribute "colour"',
          'scintray.fit("x").chi': 'has no attribute "chi"',
          'scintray.open_results("x").events().ligth': 'has no attribute "ligth"',
+         'scintray.open_results("x")[0].detcted': 'has no attribute "detcted"',
+         'scintray.open_results("x")[0:1].detected': 'has no attribute "detected"',
          'scintray.HeightMap.synthesize(3)': 'incompatible type "int"'}
 
 
@@ -44,6 +46,7 @@ class Types(Case):
         lines = list(WRONG)
         (self.folder / 'user.py').write_text('import scintray\n\n' + '\n'.join(lines) + '\n')
         done = check('user.py', folder=self.folder)
+        self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
         for number, line in enumerate(lines, 3):
             self.assertRegex(done.stdout, rf'user.py:{number}: .*' + WRONG[line])
 

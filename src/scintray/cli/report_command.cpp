@@ -96,7 +96,9 @@ void add_report_command(CLI::App& app) {
   command->add_option("-o,--output", options->output,
                       "page (default: the first RESULT with .html, or .comparison.html)");
   command->add_flag("--text", options->text, "print the summary instead of writing a page");
-  command->add_flag("--json", options->json, "print the numbers as JSON instead of writing a page")
+  command
+      ->add_flag("--json", options->json,
+                 "print the numbers as JSON, of several RESULT their comparison, instead of writing a page")
       ->excludes("--text");
   add_no_view_flag(*command, options->no_view);
   command->footer(

@@ -154,28 +154,27 @@ tally::RunResult trace(const RunOptions& options, simulation::Simulation& simula
   }
 }
 
-/// What the scenes of a command answer as JSON: of one scene its value, of several a list, which has those
-/// that were run also when a later one fails.
+/// What the scenes of a command answer as JSON: of one scene its value, of several a list, to which each is
+/// added as soon as it was run.
 class Answers {
  public:
-  explicit Answers(const RunOptions& options) : options_(options), answer_(options.json) {}
+  explicit Answers(const RunOptions& options) : several_(options.scenes.size() > 1), answer_(options.json) {
+    if (several_) answer_.print_text([] { return "[\n"; });
+  }
   ~Answers() {
-    answer_.print_text([&] {
-      if (options_.scenes.size() == 1) return texts_.empty() ? std::string() : texts_.front();
-      return fmt::format("[\n{}]\n", fmt::join(texts_, ",\n"));
-    });
+    if (several_) answer_.print_text([] { return "]\n"; });
   }
   Answers(const Answers&) = delete;
   Answers& operator=(const Answers&) = delete;
 
   void add(const std::function<std::string()>& text) {
-    if (options_.json) texts_.push_back(text());
+    answer_.print_text([&] { return (first_ ? "" : ",\n") + text(); });
+    first_ = false;
   }
 
  private:
-  const RunOptions& options_;
+  bool several_, first_ = true;
   JsonAnswer answer_;
-  std::vector<std::string> texts_;
 };
 
 void run_shard(const RunOptions& options, simulation::Simulation& simulation,

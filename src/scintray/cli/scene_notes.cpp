@@ -77,7 +77,8 @@ core::Problem warning_of(const GapGroup& group, const std::vector<contact::Place
       tolerance_mm, 1.0 / contact::kSmallGapShare);
   warning.hint = fmt::format(
       "if they are meant to touch, move one of them or write contact_tolerance = \"{:.3g} mm\" in [run], "
-      "which joins all parts that are nearer; if the gap is meant, accept it by [[gap]] between = [\"{}\", "
+      "which joins all parts that are nearer; if the gap is meant, accept it by [[gap]] with between = "
+      "[\"{}\", "
       "\"{}\"]: light crosses it as {}",
       closing_tolerance(group.most_mm), group.accepted_a(), group.accepted_b(), ambient);
   for (const contact::SmallGap& gap : group.gaps)
@@ -99,16 +100,18 @@ std::string accepted_text(const GapGroup& group, const std::string& ambient) {
                      ambient);
 }
 
-/// The [[gap]] that accepts a gap; null: none.
-const scene_file::GapSpec* accepted_by(const scene_file::SceneSpec& spec, const contact::SmallGap& gap) {
+/// Every [[gap]] that accepts a gap.
+std::vector<const scene_file::GapSpec*> accepted_by(const scene_file::SceneSpec& spec,
+                                                    const contact::SmallGap& gap) {
+  std::vector<const scene_file::GapSpec*> found;
   for (const scene_file::GapSpec& accepted : spec.gaps) {
     const auto matches = [&](const std::string& a, const std::string& b) {
       return core::matches_pattern(accepted.between[0].name, a) &&
              core::matches_pattern(accepted.between[1].name, b);
     };
-    if (matches(gap.a, gap.b) || matches(gap.b, gap.a)) return &accepted;
+    if (matches(gap.a, gap.b) || matches(gap.b, gap.a)) found.push_back(&accepted);
   }
-  return nullptr;
+  return found;
 }
 
 }  // namespace
@@ -132,9 +135,9 @@ GapFindings find_gaps(const simulation::SimulationPoint& point, bool every_one) 
   for (const contact::SmallGap& gap : contact::find_small_gaps(point.built()->placed, tolerance_mm)) {
     std::string a = core::pattern_of(gap.a), b = core::pattern_of(gap.b);
     if (b < a) std::swap(a, b);
-    const scene_file::GapSpec* const accepted = accepted_by(spec, gap);
-    if (accepted) needed.insert(accepted);
-    std::string key = (one_builder(gap) ? "1" : accepted ? "2" : "0") + a + '\n' + b;
+    const std::vector<const scene_file::GapSpec*> accepted = accepted_by(spec, gap);
+    needed.insert(accepted.begin(), accepted.end());
+    std::string key = (one_builder(gap) ? "1" : accepted.empty() ? "0" : "2") + a + '\n' + b;
     if (every_one) key += '\n' + gap.a + '\n' + gap.b;
     const auto [at, is_new] = known.try_emplace(key, groups.size());
     if (is_new) groups.push_back({a, b, {}});
@@ -146,7 +149,7 @@ GapFindings find_gaps(const simulation::SimulationPoint& point, bool every_one) 
   for (const GapGroup& group : groups)
     if (one_builder(group.gaps.front()))
       findings.intended.push_back(intended_text(group, spec.ambient.name));
-    else if (accepted_by(spec, group.gaps.front()))
+    else if (!accepted_by(spec, group.gaps.front()).empty())
       findings.intended.push_back(accepted_text(group, spec.ambient.name));
     else
       findings.warnings.push_back(warning_of(group, point.built()->placed, spec.ambient.name, tolerance_mm));

@@ -13,6 +13,7 @@
 #include "scintray/core/text.hpp"
 #include "scintray/report/pages/detail/html_parts.hpp"
 #include "scintray/report/pages/page.hpp"
+#include "scintray/report/text/detail/json_text.hpp"
 #include "scintray/report/text/format.hpp"
 #include "scintray/report/text/omissions.hpp"
 #include "scintray/report/text/sweep_view.hpp"
@@ -260,7 +261,7 @@ std::string comparison_json(const std::vector<NamedResult>& results) {
   }
   json["not_included"] = omissions(results, numbers);
   json["cautions"] = cautions(results);
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(json) + "\n";
 }
 
 std::string comparison_page(const std::vector<NamedResult>& results) {

@@ -1,5 +1,6 @@
 #include "scintray/report/text/result_json.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -7,8 +8,10 @@
 #include "scintray/analysis/light_analysis.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/step_event.hpp"
+#include "scintray/core/vec.hpp"
 #include "scintray/core/words.hpp"
 #include "scintray/report/acceptance.hpp"
+#include "scintray/report/text/detail/json_text.hpp"
 #include "scintray/report/text/omissions.hpp"
 #include "scintray/report/text/sweep_view.hpp"
 #include "scintray/scene_file/tally.hpp"
@@ -18,8 +21,6 @@ namespace scintray::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string json_dump(const Json& json) { return json.dump(1, ' ', false, Json::error_handler_t::replace); }
 
 Json number_json(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
@@ -153,8 +154,9 @@ Json axis_json(const tally::TallyAxis& axis) {
   return json;
 }
 
-/// What is computed from all bins of a tally together.
+/// What is computed from all bins of a tally together; nothing where nothing was counted.
 void add_derived(const tally::TallyResult& tally, Json& json) {
+  if (std::all_of(tally.sum.begin(), tally.sum.end(), [](double sum) { return sum == 0.0; })) return;
   const auto is_position = [](const tally::TallyAxis& axis) { return axis.variable == "position"; };
   if (tally.type == "etendue" && tally.index > 0.0) {
     try {
@@ -193,9 +195,13 @@ Json tally_json(const tally::PointResult& point, const tally::TallyResult& tally
 /// Crossings of a face in equal bins of 0 to 90 deg, and the angles that contain them.
 Json crossings_json(const std::vector<std::uint64_t>& counts, const std::vector<double>& groups) {
   const analysis::Divergence divergence = analysis::divergence(counts, groups);
+  std::vector<double> edges;
+  for (std::size_t i = 0; i <= counts.size(); ++i)
+    edges.push_back(0.5 * core::kPi * static_cast<double>(i) / static_cast<double>(counts.size()));
   return {{"half_rad", estimate_json(divergence.half_rad)},
           {"ninety_rad", estimate_json(divergence.ninety_rad)},
           {"mean_cosine", estimate_json(divergence.mean_cosine)},
+          {"edges_rad", numbers_json(edges)},
           {"counts", counts}};
 }
 
@@ -286,11 +292,11 @@ std::string result_json(const tally::RunResult& run, const RunAnalysis& analyses
     json["points"].push_back(std::move(point));
   }
   if (!analyses.criteria.empty()) json["claims"] = criteria_json(evaluate(run, analyses));
-  return json_dump(json) + "\n";
+  return json_text(json) + "\n";
 }
 
 std::string omissions_json(const std::optional<std::vector<tally::OmittedEffect>>& effects) {
-  return json_dump(omitted_json(effects));
+  return json_text(omitted_json(effects));
 }
 
 }  // namespace scintray::report
