@@ -44,7 +44,8 @@ TEST_CASE("A map is built, events are made from it, and its result is reported l
   did({"report", "result.h5", "again.h5"}, cli::kSuccess, "result.comparison.html");
   CHECK(contains(page_of(folder / "result.comparison.html"), "mean light of a pulse"));
   did({"report", "result.h5", "again.h5", "--text"}, cli::kSuccess, "root mean square");
-  did({"report", "result.h5", "again.h5", "--json"}, cli::kBadUsage, "--json");
+  did({"report", "result.h5", "again.h5", "--json"}, cli::kSuccess,
+      "\"quantity\": \"mean light of a pulse\"");
   did({"report", "result.h5", "again.h5", "-o", "again.h5"}, cli::kBadInput, "would replace");
   did({"analyze", "result.h5"}, cli::kSuccess, "pulses: 500 of 500 events");
   const std::string text = page_of(folder / "result.html");
