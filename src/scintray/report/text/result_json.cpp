@@ -9,7 +9,6 @@
 #include "scintray/core/error.hpp"
 #include "scintray/core/step_event.hpp"
 #include "scintray/core/vec.hpp"
-#include "scintray/core/words.hpp"
 #include "scintray/report/acceptance.hpp"
 #include "scintray/report/text/detail/json_text.hpp"
 #include "scintray/report/text/omissions.hpp"
@@ -28,6 +27,17 @@ Json estimate_json(const core::Estimate& estimate) {
   return {{"value", number_json(estimate.value)}, {"error", number_json(estimate.error)}};
 }
 
+Json numbers_json(const std::vector<double>& values) {
+  Json list = Json::array();
+  for (const double value : values) list.push_back(number_json(value));
+  return list;
+}
+
+/// Photons of one kind, and their share of the emitted ones.
+Json photons_json(std::uint64_t photons, const core::Estimate& share) {
+  return {{"photons", photons}, {"fraction", number_json(share.value)}, {"error", number_json(share.error)}};
+}
+
 /// Fields of an analysis as members of objects.
 class JsonSink : public analysis::FieldSink {
  public:
@@ -41,9 +51,7 @@ class JsonSink : public analysis::FieldSink {
   void count(const analysis::FieldMeaning& field, std::int64_t value) override { set(field, value); }
   void text(const analysis::FieldMeaning& field, const std::string& value) override { set(field, value); }
   void numbers(const analysis::FieldMeaning& field, const std::vector<double>& values) override {
-    Json list = Json::array();
-    for (const double value : values) list.push_back(number_json(value));
-    set(field, std::move(list));
+    set(field, numbers_json(values));
   }
   void counts(const analysis::FieldMeaning& field, const std::vector<std::int64_t>& values) override {
     set(field, values);
@@ -80,10 +88,7 @@ Json fates_json(const tally::PointResult& point) {
   Json fates = Json::object();
   for (int i = 0; i < core::kFateCount; ++i) {
     const core::Fate fate = core::fate_at(i);
-    const core::Estimate fraction = point.fraction(fate);
-    fates[core::fate_name(fate)] = {{"photons", point.count(fate)},
-                                    {"fraction", number_json(fraction.value)},
-                                    {"error", number_json(fraction.error)}};
+    fates[core::fate_name(fate)] = photons_json(point.count(fate), point.fraction(fate));
   }
   return fates;
 }
@@ -126,22 +131,12 @@ Json sensors_json(const tally::RunResult& run, const tally::PointResult& point) 
   return sensors;
 }
 
-Json numbers_json(const std::vector<double>& values) {
-  Json list = Json::array();
-  for (const double value : values) list.push_back(number_json(value));
-  return list;
-}
-
 template <typename Id>
 Json absorbed_json(const tally::PointResult& point, const core::IdVector<Id, std::string>& names,
                    const core::IdVector<Id, std::uint64_t>& counts) {
   Json absorbed = Json::object();
-  for (std::uint32_t i = 0; i < counts.size(); ++i) {
-    const core::Estimate share = point.absorbed_fraction(Id(i));
-    absorbed[names[Id(i)]] = {{"photons", counts[Id(i)]},
-                              {"fraction", number_json(share.value)},
-                              {"error", number_json(share.error)}};
-  }
+  for (std::uint32_t i = 0; i < counts.size(); ++i)
+    absorbed[names[Id(i)]] = photons_json(counts[Id(i)], point.absorbed_fraction(Id(i)));
   return absorbed;
 }
 
