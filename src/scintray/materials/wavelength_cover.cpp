@@ -22,7 +22,7 @@ void check_cover_of_shifter(core::Problems& problems, const core::FileLocation& 
                             const optics::WavelengthShifter* shifter, double low_nm, double high_nm,
                             const std::string& whose) {
   if (!shifter) return;
-  const std::string hint = "extend the table, with zeros where nothing is absorbed or given back";
+  const std::string hint = "extend the table, with zeros where nothing is absorbed or re-emitted";
   for (const optics::Fluorophore& fluorophore : shifter->fluorophores()) {
     check_cover(problems, where, {fluorophore.absorption_per_mm, whose, "a shifter's absorption", hint},
                 low_nm, high_nm);

@@ -10,7 +10,7 @@ namespace scintray::scene {
 
 namespace {
 
-/// What light inside a face's part meets at an interface of the face.
+/// What is behind an interface of a face, for light inside the face's part.
 struct Beyond {
   core::RegionId inside;
   double index = 1.0;

@@ -19,7 +19,7 @@ struct FacetFace {
   double let_out = 0.0;
 };
 
-/// Light in a body with a round wall, and what it meets there.
+/// Light in a body with a round wall, and what is behind the wall.
 struct RoundWall {
   double index_inside = 1.0, index_outside = 1.0;
   double absorption_per_mm = 0.0;  ///< 0: light that is trapped never ends
@@ -33,9 +33,9 @@ struct RoundWall {
 /// A facet's normal is off the wall's by an angle spread evenly up to d on either side, so that a reflection
 /// turns the ray by up to 2 d, 4 d^2 / 3 in the mean square. Taken as independent, the N reflections before
 /// the light is absorbed, N = 1 / (absorption * mean chord), turn it by s = 2 d sqrt(N / 3) (root of the mean
-/// square). Light that meets the wall within s beyond the critical angle c may leave: of the isotropic light
-/// that meets a wall, sin^2(min(c + s, 90 deg)) - sin^2(c). An upper estimate, since most of it is absorbed
-/// on its way, or turned the other way.
+/// square). Light that reaches the wall within s beyond the critical angle c may leave: of the isotropic
+/// light that reaches a wall, sin^2(min(c + s, 90 deg)) - sin^2(c). An upper estimate, since most of it is
+/// absorbed on its way, or turned the other way.
 double light_let_out(const RoundWall& wall);
 
 /// Round faces of a scene that are traced as facets, in the order of its faces.

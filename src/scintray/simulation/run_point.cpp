@@ -100,7 +100,7 @@ class BlockTracer {
     double conversion_draw = 0.0;
   };
 
-  /// Traces photons of which only the ends are recorded. Events of energy are traced one by one.
+  /// Traces photons of which only the ends are recorded. One event of energy is traced after another.
   void trace_together(const std::vector<source::PhotonSpan>& spans,
                       const transport::PropagationLimits& limits, Block& block) const {
     transport::Batch batch(scene_, limits, lane_width_, lane_kinds_);

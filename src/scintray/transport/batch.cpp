@@ -6,6 +6,7 @@
 #include "scintray/core/error.hpp"
 #include "scintray/transport/detail/lane_faces.hpp"
 #include "scintray/transport/detail/step_parts.hpp"
+#include "scintray/transport/detail/surface_lanes.hpp"
 #include "scintray/transport/lane_width.hpp"
 
 namespace scintray::transport {
@@ -20,14 +21,80 @@ core::PlainVec3 vec(const double (&from)[3]) { return {from[0], from[1], from[2]
 
 }  // namespace
 
+class Batch::Tracing {
+ public:
+  Tracing(const scene::Scene& scene, const PropagationLimits& limits, int lane_width, const LaneKinds& kinds);
+
+  const std::vector<TracedPhoton>& trace(std::uint64_t count, Stream stream, Emit emit);
+  const BatchCounts& counts() const { return counts_; }
+
+ private:
+  /// A photon on its way.
+  struct Traveller {
+    source::Photon photon;
+    core::Rng rng{0, core::StreamKind::photon, 0};
+    std::uint64_t number = 0;
+    std::uint32_t segments = 0;  ///< of the present step so far
+    core::RegionId angles_of;    ///< region and wavelength of its least_sin2_; none: not set
+    double angles_nm = 0.0;
+  };
+  /// A photon to be propagated in lanes.
+  struct Waiting {
+    core::AcceleratorId accelerator;
+    std::uint32_t traveller = 0;
+  };
+
+  void enqueue(std::uint32_t traveller);
+  void trace_in_surface_lanes();
+  void trace_alone(std::uint32_t traveller);
+  void trace_in_lanes();
+  void propagate(const Waiting* first, const Waiting* last);
+  /// All of `work` but the results, in its place: copies of what was just written wait for it.
+  void set_work(std::uint32_t traveller, const LaneFaces& faces, LaneWork& work);
+  void set_critical_angles(Traveller& traveller, const LaneFaces& faces, double* least_sin2) const;
+  void finish(const LaneWork& work, const LaneFaces& faces, std::uint32_t traveller);
+  /// True when the photon goes on after the step; else its end is noted, and the next photon takes its place.
+  bool goes_on(Traveller& traveller, const Step& taken);
+  void replace(std::uint32_t traveller);
+
+  const scene::Scene& scene_;
+  PropagationLimits limits_;
+  const LaneKinds& kinds_;
+  LaneKernels kernels_;
+  SurfaceLanes surface_lanes_;
+  core::IdVector<core::AcceleratorId, LaneFaces> faces_;  ///< of those of LaneKind::smooth
+  std::size_t most_faces_ = 0;
+  std::vector<Traveller> travellers_;
+  std::vector<double> least_sin2_;  ///< per traveller and face: critical angles, most_faces_ each
+  std::vector<std::uint32_t> alone_, for_surface_lanes_;
+  std::vector<Waiting> waiting_, in_lanes_;
+  std::vector<LaneWork> work_;
+  std::vector<TracedPhoton> traced_;
+  BatchCounts counts_;
+  std::uint64_t next_ = 0;  ///< number of the next photon to start
+  Stream stream_;
+  Emit emit_;
+};
+
 Batch::Batch(const scene::Scene& scene, const PropagationLimits& limits, int lane_width,
              const LaneKinds& kinds)
+    : tracing_(std::make_unique<Tracing>(scene, limits, lane_width, kinds)) {}
+
+Batch::~Batch() = default;
+
+const std::vector<TracedPhoton>& Batch::trace(std::uint64_t count, Stream stream, Emit emit) {
+  return tracing_->trace(count, stream, emit);
+}
+
+const BatchCounts& Batch::counts() const { return tracing_->counts(); }
+
+Batch::Tracing::Tracing(const scene::Scene& scene, const PropagationLimits& limits, int lane_width,
+                        const LaneKinds& kinds)
     : scene_(scene),
       limits_(limits),
       kinds_(kinds),
-      propagate_(propagate_lanes(lane_width)),
-      propagate_in_body_(propagate_lanes_in_body(lane_width)),
-      surface_lanes_(scene, limits, run_lanes(lane_width)) {
+      kernels_(lane_kernels(lane_width)),
+      surface_lanes_(scene, limits, kernels_.run) {
   const std::vector<int>& widths = lane_widths();
   if (std::find(widths.begin(), widths.end(), lane_width) == widths.end())
     throw core::InternalError("this processor has no lanes of width " + std::to_string(lane_width));
@@ -41,7 +108,7 @@ Batch::Batch(const scene::Scene& scene, const PropagationLimits& limits, int lan
   }
 }
 
-const std::vector<TracedPhoton>& Batch::trace(std::uint64_t count, Stream stream, Emit emit) {
+const std::vector<TracedPhoton>& Batch::Tracing::trace(std::uint64_t count, Stream stream, Emit emit) {
   counts_ = {};
   next_ = 0;
   stream_ = stream;
@@ -62,7 +129,7 @@ const std::vector<TracedPhoton>& Batch::trace(std::uint64_t count, Stream stream
   return traced_;
 }
 
-void Batch::replace(std::uint32_t index) {
+void Batch::Tracing::replace(std::uint32_t index) {
   if (next_ == traced_.size()) return;
   Traveller& traveller = travellers_[index];
   traveller.number = next_++;
@@ -73,7 +140,7 @@ void Batch::replace(std::uint32_t index) {
   enqueue(index);
 }
 
-void Batch::enqueue(std::uint32_t index) {
+void Batch::Tracing::enqueue(std::uint32_t index) {
   const core::RegionId region = travellers_[index].photon.region;
   switch (kinds_[region]) {
     case LaneKind::none:
@@ -88,7 +155,7 @@ void Batch::enqueue(std::uint32_t index) {
   }
 }
 
-void Batch::trace_alone(std::uint32_t index) {
+void Batch::Tracing::trace_alone(std::uint32_t index) {
   Traveller& traveller = travellers_[index];
   do {
     if (!goes_on(traveller, step(scene_, traveller.photon, traveller.rng, limits_))) return replace(index);
@@ -96,7 +163,7 @@ void Batch::trace_alone(std::uint32_t index) {
   enqueue(index);
 }
 
-void Batch::trace_in_surface_lanes() {
+void Batch::Tracing::trace_in_surface_lanes() {
   while (!for_surface_lanes_.empty() && surface_lanes_.has_room()) {
     const std::uint32_t index = for_surface_lanes_.back();
     for_surface_lanes_.pop_back();
@@ -112,7 +179,7 @@ void Batch::trace_in_surface_lanes() {
   }
 }
 
-void Batch::trace_in_lanes() {
+void Batch::Tracing::trace_in_lanes() {
   in_lanes_.swap(waiting_);
   waiting_.clear();
   const auto before = [](const Waiting& a, const Waiting& b) { return a.accelerator < b.accelerator; };
@@ -127,20 +194,20 @@ void Batch::trace_in_lanes() {
   }
 }
 
-void Batch::propagate(const Waiting* first, const Waiting* last) {
+void Batch::Tracing::propagate(const Waiting* first, const Waiting* last) {
   const LaneFaces& faces = faces_[first->accelerator];
   const LaneLimits limits{static_cast<double>(limits_.interactions), limits_.time_ns};
   const auto count = static_cast<std::size_t>(last - first);
   if (work_.size() < count) work_.resize(count);
   for (std::size_t i = 0; i < count; ++i) set_work(first[i].traveller, faces, work_[i]);
   if (faces.has_quadrics())
-    propagate_in_body_(faces.body(), limits, work_.data(), count);
+    kernels_.propagate_in_body(faces.body(), limits, work_.data(), count);
   else
-    propagate_(faces.planes(), limits, work_.data(), count);
+    kernels_.propagate(faces.planes(), limits, work_.data(), count);
   for (std::size_t i = 0; i < count; ++i) finish(work_[i], faces, first[i].traveller);
 }
 
-void Batch::set_work(std::uint32_t index, const LaneFaces& faces, LaneWork& work) {
+void Batch::Tracing::set_work(std::uint32_t index, const LaneFaces& faces, LaneWork& work) {
   Traveller& traveller = travellers_[index];
   const source::Photon& photon = traveller.photon;
   double* const least_sin2 = least_sin2_.data() + index * most_faces_;
@@ -160,7 +227,8 @@ void Batch::set_work(std::uint32_t index, const LaneFaces& faces, LaneWork& work
   work.left = faces.left_at(photon.on_triangle);
 }
 
-void Batch::set_critical_angles(Traveller& traveller, const LaneFaces& faces, double* least_sin2) const {
+void Batch::Tracing::set_critical_angles(Traveller& traveller, const LaneFaces& faces,
+                                         double* least_sin2) const {
   const source::Photon& photon = traveller.photon;
   const scene::Region& region = scene_.regions[photon.region];
   const scene::BoundaryLink* const links = scene_.links_of(region);
@@ -182,7 +250,7 @@ void Batch::set_critical_angles(Traveller& traveller, const LaneFaces& faces, do
   traveller.angles_nm = photon.wavelength_nm;
 }
 
-void Batch::finish(const LaneWork& work, const LaneFaces& faces, std::uint32_t index) {
+void Batch::Tracing::finish(const LaneWork& work, const LaneFaces& faces, std::uint32_t index) {
   Traveller& traveller = travellers_[index];
   source::Photon& photon = traveller.photon;
   photon.position = vec(work.position);
@@ -210,7 +278,7 @@ void Batch::finish(const LaneWork& work, const LaneFaces& faces, std::uint32_t i
     replace(index);
 }
 
-bool Batch::goes_on(Traveller& traveller, const Step& taken) {
+bool Batch::Tracing::goes_on(Traveller& traveller, const Step& taken) {
   const std::uint32_t segments = taken.segments + std::exchange(traveller.segments, 0);
   const bool ends = core::is_final(taken.event);
   const std::optional<core::Fate> cut = ends ? std::nullopt : limits_.reached(traveller.photon);

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include "scintray/transport/detail/lanes/lane_kernel.hpp"
-#include "scintray/transport/detail/lanes/lane_pool.hpp"
+#include "scintray/transport/detail/lanes/lane_kernels.hpp"
 
 namespace scintray::transport {
 
@@ -45,46 +44,18 @@ int default_lane_width() {
   return width;
 }
 
-PropagateLanes propagate_lanes(int width) {
+LaneKernels lane_kernels(int width) {
   switch (width) {
 #if defined(__x86_64__)
     case 2:
-      return propagate_lanes_2;
+      return {propagate_lanes_2, propagate_lanes_in_body_2, nullptr};
     case 4:
-      return propagate_lanes_4;
+      return {propagate_lanes_4, propagate_lanes_in_body_4, run_lanes_4};
     case 8:
-      return propagate_lanes_8;
+      return {propagate_lanes_8, propagate_lanes_in_body_8, run_lanes_8};
 #endif
     default:
-      return nullptr;
-  }
-}
-
-PropagateLanesInBody propagate_lanes_in_body(int width) {
-  switch (width) {
-#if defined(__x86_64__)
-    case 2:
-      return propagate_lanes_in_body_2;
-    case 4:
-      return propagate_lanes_in_body_4;
-    case 8:
-      return propagate_lanes_in_body_8;
-#endif
-    default:
-      return nullptr;
-  }
-}
-
-RunLanes run_lanes(int width) {
-  switch (width) {
-#if defined(__x86_64__)
-    case 4:
-      return run_lanes_4;
-    case 8:
-      return run_lanes_8;
-#endif
-    default:
-      return nullptr;
+      return {};
   }
 }
 

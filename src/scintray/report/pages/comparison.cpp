@@ -130,7 +130,7 @@ std::vector<std::string> row_of(const ComparedNumber& number) {
 
 /// The largest difference, and the share of comparisons as large a difference of equal results would have by
 /// chance: with N of them, 1 - (1 - p)^N with p that of a normal distribution.
-std::string verdict(const std::vector<NamedResult>& results, const std::vector<ComparedNumber>& numbers) {
+std::string conclusion(const std::vector<NamedResult>& results, const std::vector<ComparedNumber>& numbers) {
   std::size_t count = 0;
   double largest = 0.0, squares = 0.0;
   std::string where;
@@ -229,7 +229,7 @@ std::string comparison_text(const std::vector<NamedResult>& results) {
   for (const ComparedNumber& number : numbers) table.push_back(row_of(number));
   std::string text = aligned(table);
   for (const std::string& sentence : omissions(results, numbers)) text += sentence + "\n";
-  text += verdict(results, numbers) + "\n";
+  text += conclusion(results, numbers) + "\n";
   for (const std::string& caution : cautions(results)) text += "note: " + caution + "\n";
   return text;
 }
@@ -283,7 +283,7 @@ std::string comparison_page(const std::vector<NamedResult>& results) {
   for (const std::string& caution : cautions(results)) notes += "<li>" + escape_html(caution) + "</li>\n";
   for (const std::string& sentence : omissions(results, numbers))
     left_out += "<p>" + escape_html(sentence) + "</p>\n";
-  std::string body = section("Differences", "<p>" + escape_html(verdict(results, numbers)) + "</p>\n" +
+  std::string body = section("Differences", "<p>" + escape_html(conclusion(results, numbers)) + "</p>\n" +
                                                 (notes.empty() ? "" : "<ul>\n" + notes + "</ul>\n") +
                                                 table(head_of(results), rows, 2) + left_out);
   body += section("Results", table({"result", "title", "scene", "seed", "points"}, about, 3));

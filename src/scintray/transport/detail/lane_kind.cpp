@@ -1,6 +1,6 @@
 #include "scintray/scene/lane_surface_at.hpp"
 #include "scintray/transport/batch.hpp"
-#include "scintray/transport/detail/lanes/lane_pool.hpp"
+#include "scintray/transport/detail/lanes/lane_kernels.hpp"
 
 namespace scintray::transport {
 
@@ -10,7 +10,7 @@ LaneKind lane_kind(const scene::Scene& scene, core::RegionId region, int lane_wi
   // With few total reflections in a row, entering and leaving the lanes costs more than they save.
   if (shares.smooth > 0.5) return shares.total > 0.5 ? LaneKind::smooth : LaneKind::none;
   if (scene.regions[region].curved) return LaneKind::none;
-  return run_lanes(lane_width) ? LaneKind::surfaces : LaneKind::none;
+  return lane_kernels(lane_width).run ? LaneKind::surfaces : LaneKind::none;
 }
 
 LaneKinds lane_kinds(const scene::Scene& scene, int lane_width) {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "scintray/scene/scene.hpp"
-#include "scintray/transport/detail/lanes/lane_pool.hpp"
+#include "scintray/transport/detail/lanes/lane_kernels.hpp"
 #include "scintray/transport/step.hpp"
 
 namespace scintray::transport {

@@ -83,10 +83,6 @@ using PropagateLanes = void (*)(const LanePlanes& planes, const LaneLimits& limi
 using PropagateLanesInBody = void (*)(const LaneBody& body, const LaneLimits& limits, LaneWork* photons,
                                       std::size_t count);
 
-/// The kernels of a width of lane_widths(); null for 1.
-PropagateLanes propagate_lanes(int width);
-PropagateLanesInBody propagate_lanes_in_body(int width);
-
 // One for each width that this build has; defined where its instruction set is compiled.
 void propagate_lanes_2(const LanePlanes&, const LaneLimits&, LaneWork*, std::size_t);
 void propagate_lanes_4(const LanePlanes&, const LaneLimits&, LaneWork*, std::size_t);

@@ -111,9 +111,6 @@ struct LanePool {
 /// one. At least one photon is neither empty nor waiting.
 using RunLanes = void (*)(LanePool& pool);
 
-/// The kernel of a width of lane_widths(); null for 1 and 2, which are slower than photons one by one.
-RunLanes run_lanes(int width);
-
 // One for each width that this build has; defined where its instruction set is compiled.
 void run_lanes_4(LanePool&);
 void run_lanes_8(LanePool&);
