@@ -1,4 +1,6 @@
 #include <cstring>
+#include <filesystem>
+#include <regex>
 
 #include "io/tabulated.hpp"
 #include "physics/traced.hpp"
@@ -23,8 +25,7 @@ struct Run {
   std::vector<DetectedPhoton> list;
 };
 
-Run trace_with(const std::string& scene, int lane_width) {
-  SceneSpec spec = scene_spec(scene);
+Run trace_with(SceneSpec spec, int lane_width) {
   spec.run.lane_width = lane_width;
   spec.run.photon_list = true;
   Run traced;
@@ -35,6 +36,8 @@ Run trace_with(const std::string& scene, int lane_width) {
   traced.result = ready(std::move(spec))->trace(hooks);
   return traced;
 }
+
+Run trace_with(const std::string& scene, int lane_width) { return trace_with(scene_spec(scene), lane_width); }
 
 bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
@@ -302,6 +305,29 @@ translate = ["3000 mm", "-2000 mm", "1000 mm"])",
   SUBCASE("turned rod") {
     scene = round_crystal(std::string(kRod) + "\nrotate = { axis = [1, 1, 0], angle = \"90 deg\" }", "6 mm");
   }
+  SUBCASE("elliptical polarisation") {
+    scene = crystal("polished", "[run]\npolarisation = \"elliptical\"\n");
+  }
+  SUBCASE("facets, elliptical polarisation") {
+    scene = crystal("roncali2013_unified_rough", "[run]\npolarisation = \"elliptical\"\n");
+  }
+  SUBCASE("height map on the spot") {
+    scene = crystal("spot", R"([surfaces.spot]
+base = "lso_ground_30um"
+tracing = { mode = "on_the_spot" }
+)");
+  }
+  SUBCASE("shares of the area") {
+    scene = crystal("in_parts", std::string(kBacked) + R"([surfaces.in_parts]
+mixture = [{ surface = "backed", share = 0.4 }, { surface = "polished", share = 0.6 }]
+)");
+  }
+  SUBCASE("metal") {
+    scene = crystal("mirror", R"([surfaces.mirror]
+model = "thin_film"
+films = [{ index = 0.6, extinction = 5.0, thickness = "100 nm" }]
+)");
+  }
   SUBCASE("cut by interactions") { scene = crystal("polished", "[run]\nmax_interactions = 20\n"); }
   SUBCASE("cut by time") { scene = crystal("polished", "[run]\nmax_time = \"0.3 ns\"\n"); }
   SUBCASE("array with the spectrum of its light") { scene = array(kEmission); }
@@ -325,6 +351,27 @@ vacuum = ["sipm[*]"]
   for (const int width : transport::lane_widths()) {
     CAPTURE(width);
     check_same(alone, trace_with(scene, width));
+  }
+}
+
+TEST_CASE("The shipped scenes have the same results for every width of the lanes") {
+  std::string name, photons = "600";
+  SUBCASE("block_detector") { name = "block_detector", photons = "1"; }
+  SUBCASE("doi_block") { name = "doi_block", photons = "1"; }
+  SUBCASE("dual_ended") { name = "dual_ended"; }
+  SUBCASE("monolithic_slab") { name = "monolithic_slab", photons = "1"; }
+  SUBCASE("phosphor_coated") { name = "phosphor_coated"; }
+  SUBCASE("quickstart") { name = "quickstart"; }
+  SUBCASE("torture") { name = "torture"; }
+  const std::filesystem::path file = source_file("scenes/" + name + ".toml");
+  const std::string text = std::regex_replace(
+      config::read_text_file(file), std::regex("\n(photons|events) = [0-9_]+"), "\n$1 = " + photons);
+  const SceneSpec spec = SceneFile::from_text(text, file.string()).spec(0);
+  const Run alone = trace_with(spec, 1);
+  REQUIRE(alone.result.segments > 1'000);
+  for (const int width : transport::lane_widths()) {
+    CAPTURE(width);
+    check_same(alone, trace_with(spec, width));
   }
 }
 
