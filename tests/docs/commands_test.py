@@ -66,7 +66,9 @@ NUMBERS = {'17/400': '1/3', '"$SLURM_ARRAY_TASK_ID/400"': '2/3', '{}/400': '3/3'
            'exec scintray': 'scintray',
            # Fits of one field, tables of few rays, a run of few photons.
            '--seeds 5': '--seeds 1', 'table stack lso': 'table stack --rays 100 lso',
-           'run wrapped.toml': 'run wrapped.toml --photons 20000'}
+           'run wrapped.toml': 'run wrapped.toml --photons 20000',
+           # Maps of half a minute each, and their time.
+           'time scintray': 'scintray', '--photons 12000': '--photons 20', '--channel-photons 60000': '--channel-photons 200'}
 # Lines that belong to other machines: launched by MPI, or long.
 ELSEWHERE = {
     'mpirun -n 64 scintray run scanner.toml -o scanner.h5': 'tests/cli/mpi_test.cpp runs 1, 2 and 4 ranks',
