@@ -23,7 +23,7 @@ function view_row(swatch, name, count, checked, changed) {
 function view_parts(view) {
   const { data, shapes, middle, element } = view;
   const colours = { medium: data.media.map((m) => view_rgb(m.c)), surface: data.surfaces.map((s) => view_rgb(s.c)) };
-  const NEUTRAL = [0.6, 0.6, 0.6];
+  const NEUTRAL = [0.6, 0.6, 0.6], EDGE_OPACITY = 0.55;
 
   const groups = data.media.map((medium, m) => {
     const parts = data.parts.filter((part) => part.m === m), group = { parts, first: [], triangles: 0, medium };
@@ -36,7 +36,7 @@ function view_parts(view) {
       clippingPlanes: [],
     }));
     group.edges = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({
-      transparent: true, opacity: 0.55, clippingPlanes: [],
+      transparent: true, opacity: EDGE_OPACITY, clippingPlanes: [],
     }));
     view.space.add(group.mesh, group.edges);
     return group;
@@ -125,6 +125,10 @@ function view_parts(view) {
     for (const group of groups) group.edges.visible = on && group.mesh.visible;
     view.redraw();
   }
+  // Lines are a point wide: where points are larger, they are fainter, and cover as much.
+  function fade_edges(share) {
+    for (const group of groups) group.edges.material.opacity = share * EDGE_OPACITY;
+  }
   // The part, its triangle and the place where a ray enters what `side` keeps.
   function hit(ray, side) {
     let nearest = null;
@@ -138,7 +142,7 @@ function view_parts(view) {
     while (number + 1 < group.first.length && group.first[number + 1] <= faceIndex) ++number;
     return { part: group.parts[number], triangle: faceIndex - group.first[number], point };
   }
-  return { place, paint, legend, set_opacity, show_edges, hit, face_of, offset_of,
+  return { place, paint, legend, set_opacity, show_edges, fade_edges, hit, face_of, offset_of,
     triangles: groups.reduce((sum, group) => sum + group.triangles, 0),
     materials: groups.flatMap((group) => [group.mesh.material, group.edges.material]) };
 }

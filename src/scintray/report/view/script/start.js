@@ -2,12 +2,30 @@
 // at once; within a report by the button .view-open, so that the report does not wait for it.
 const view_element = (id) => document.getElementById(id);
 
+// Draws a picture without the smoothing of edges that the canvas has: beside the canvas, then copied onto it.
+function view_unsmoothed(renderer) {
+  const target = new THREE.WebGLRenderTarget(1, 1, { minFilter: THREE.NearestFilter, magFilter: THREE.NearestFilter }),
+    copied = new THREE.Mesh(new THREE.PlaneBufferGeometry(2, 2), new THREE.MeshBasicMaterial({ map: target.texture,
+      depthTest: false, depthWrite: false })),
+    space = new THREE.Scene(), camera = new THREE.OrthographicCamera(-1, 1, 1, -1, -1, 1), points = new THREE.Vector2();
+  target.texture.generateMipmaps = false;
+  space.add(copied);
+  return (scene, from) => {
+    renderer.getDrawingBufferSize(points);
+    target.setSize(points.x, points.y);
+    renderer.setRenderTarget(target);
+    renderer.render(scene, from);
+    renderer.setRenderTarget(null);
+    renderer.render(space, camera);
+  };
+}
+
 // Draws when something has changed: all of it, or, while photons are played, only what came since the last picture, onto
 // it. Where pictures take long, as by software, those of a moving camera have some of the paths only, and fewer points.
 function view_renderer(view, canvas) {
   const renderer = new THREE.WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
-  const SLOW_MS = 110, REST_MS = 250, COARSEST = 0.35;
-  let stale = true, moving = false, moved_at = 0, sparse = false, coarse = 1;
+  const SLOW_MS = 60, REST_MS = 250, COARSEST = 0.35, draw_unsmoothed = view_unsmoothed(renderer);
+  let stale = true, moving = false, moved_at = 0, quick = false, coarse = 1;
   const counts = { frames: 0, increments: 0 };
   const ratio = () => Math.min(window.devicePixelRatio, 2);
 
@@ -32,27 +50,28 @@ function view_renderer(view, canvas) {
     gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, point);
     return performance.now() - begin;
   }
-  // After a long picture of a moving camera: less in the next ones.
+  // After a long picture of a moving camera: less in the next ones; after short ones, more points again, then all.
   function adapt(taken_ms) {
-    if (taken_ms < SLOW_MS) return;
-    if (!sparse) {
-      sparse = true;
-    } else if (coarse > COARSEST) {
-      coarse = Math.max(COARSEST, 0.9 * coarse * Math.sqrt(SLOW_MS / taken_ms));
-      resize();
-    }
+    const before = coarse;
+    if (taken_ms > SLOW_MS && quick) coarse = Math.max(COARSEST, 0.9 * coarse * Math.sqrt(SLOW_MS / taken_ms));
+    else if (taken_ms > SLOW_MS) quick = true;
+    else if (taken_ms < SLOW_MS / 2 && coarse < 1) coarse = Math.min(1, 1.1 * coarse);
+    else if (taken_ms < SLOW_MS / 8) quick = false;
+    if (coarse !== before) resize();
   }
   function frame(now) {
     view.playback.advance(now);
     if (moving && now - moved_at > REST_MS) move(false);
-    const all = stale;
-    if (!all && !view.paths.behind()) return;
-    const begin = performance.now();
+    if (!stale && !view.paths.behind()) return;
+    // What is new is not drawn onto an unsmoothed picture, which has no depths.
+    const hurry = moving && quick, all = stale || hurry, begin = performance.now();
     stale = false;
-    view.paths.prepare(all, moving && sparse);
+    view.paths.prepare(all, hurry);
+    view.parts.fade_edges(hurry ? coarse : 1);
     view.lamp.position.copy(view.camera.camera.position);
     renderer.autoClear = all;
-    renderer.render(all ? view.space : view.increment, view.camera.camera);
+    if (hurry) draw_unsmoothed(view.space, view.camera.camera);
+    else renderer.render(all ? view.space : view.increment, view.camera.camera);
     ++counts.frames;
     if (!all) ++counts.increments;
     if (all && moving) adapt(wait_for_picture(begin));
@@ -239,7 +258,7 @@ function view_start(host) {
   view.drawing.renderer.setAnimationLoop(view.drawing.frame);
   // For tools/pages_check, which computes by itself what lies under a place of the screen.
   window.scintrayView = { data, shapes, histories: paths, middle: view.middle, camera: view.camera.camera,
-    paths: paths.length, counts: view.drawing.counts, turn: view.camera.turn,
+    paths: paths.length, counts: view.drawing.counts, turn: view.camera.turn, space: view.space,
     show_path: (i) => { view.paths.choose(paths[i]); properties.show_path(paths[i]); },
     get frames() { return view.drawing.counts.frames; } };
 }
