@@ -5,7 +5,7 @@
 // Runs in the page before its scripts: counts what is asked of WebGL, frame by frame. Uses nothing from outside.
 function count_in_page() {
   const counts = window.frameCounts = { calls: 0, triangles: 0, line_ends: 0, uploaded: 0, script_ms: 0, at_once: false };
-  const TRIANGLES = 4, LINES = 1, LINE_STRIP = 3;
+  const TRIANGLES = 4, LINES = 1, LINE_STRIP = 3, RENDERER_NAMES = [0x1f01, 0x9246];
   const drawn = (mode, elements) => {
     ++counts.calls;
     if (mode === TRIANGLES) counts.triangles += elements / 3;
@@ -30,9 +30,10 @@ function count_in_page() {
       const call = prototype[name];
       if (call) prototype[name] = function (...values) { count(...values); return call.apply(this, values); };
     }
-    // The page reads a point to learn how long a picture took. A picture that takes no time is drawn in full.
-    const read = prototype.readPixels;
+    // For the page, a graphics processor draws, and at once: a point that it reads, to learn how long a picture took, is there.
+    const read = prototype.readPixels, parameter = prototype.getParameter;
     prototype.readPixels = function (...values) { if (!counts.at_once) read.apply(this, values); };
+    prototype.getParameter = function (name) { return RENDERER_NAMES.includes(name) ? "counted" : parameter.call(this, name); };
   }
   const request = window.requestAnimationFrame;
   window.requestAnimationFrame = (work) => request.call(window, (now) => {

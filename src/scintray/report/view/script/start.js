@@ -2,6 +2,12 @@
 // at once; within a report by the button .view-open, so that the report does not wait for it.
 const view_element = (id) => document.getElementById(id);
 
+// Whether pictures are drawn by software, without a graphics processor.
+function view_by_software(gl) {
+  const names = gl.getExtension("WEBGL_debug_renderer_info"), name = gl.getParameter(names ? names.UNMASKED_RENDERER_WEBGL : gl.RENDERER);
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
+}
+
 // Draws a picture without the smoothing of edges that the canvas has: beside the canvas, then copied onto it.
 function view_unsmoothed(renderer) {
   const target = new THREE.WebGLRenderTarget(1, 1, { minFilter: THREE.NearestFilter, magFilter: THREE.NearestFilter }),
@@ -25,7 +31,7 @@ function view_unsmoothed(renderer) {
 function view_renderer(view, canvas) {
   const renderer = new THREE.WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
   const SLOW_MS = 60, REST_MS = 250, COARSEST = 0.35, draw_unsmoothed = view_unsmoothed(renderer);
-  let stale = true, moving = false, moved_at = 0, quick = false, coarse = 1;
+  let stale = true, moving = false, moved_at = 0, quick = view_by_software(renderer.getContext()), coarse = 1;
   const counts = { frames: 0, increments: 0 };
   const ratio = () => Math.min(window.devicePixelRatio, 2);
 
