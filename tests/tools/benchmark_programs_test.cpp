@@ -44,6 +44,27 @@ TEST_CASE("A server answers each request with a line, and goes on after an error
   CHECK(trace_of_answer(answers[4]).segments == trace.segments);
 }
 
+TEST_CASE("A server traces at the lane width that is asked for, with the same photons") {
+  const auto answers = answers_to({R"({"scene": "unified", "work": 64, "threads": 1, "lane_width": 1})",
+                                   R"({"scene": "unified", "work": 64, "threads": 1})",
+                                   R"({"scene": "unified", "work": 64, "threads": 1, "lane_width": 3})"});
+  REQUIRE(answers.size() == 3);
+  CHECK(trace_of_answer(answers[0]).segments == trace_of_answer(answers[1]).segments);
+  CHECK_THROWS(trace_of_answer(answers[2]));
+}
+
+TEST_CASE("A server says the kinds of work of places, and how fast the processor counts") {
+  const auto answers = answers_to(
+      {R"({"kinds_of": [["", "/x/src/scintray/core/philox_laws.hpp", "scintray::transport::step()"],)"
+       R"( ["", "/usr/include/avxintrin.h", "scintray::optics::refract(int)"],)"
+       R"( ["libembree3.so.3", "???", "0x1"], ["libc.so.6", "???", "malloc"]]})",
+       R"({"machine": true})"});
+  REQUIRE(answers.size() == 2);
+  CHECK(answers[0] == R"({"kinds":["random","surface","ray query","other"]})");
+  CHECK(answers[1].find(R"("cycles_per_ns":)") != std::string::npos);
+  CHECK(answers[1].find(R"("lane_widths":[1)") != std::string::npos);
+}
+
 TEST_CASE("An answer of another program is refused") {
   CHECK_THROWS_AS(trace_of_answer("usage: something"), core::InputError);
   CHECK_THROWS_AS(work_of_answer("[]"), core::InputError);

@@ -4,8 +4,12 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "core_clock.hpp"
+#include "figures.hpp"
 #include "measure.hpp"
 #include "scintray/core/error.hpp"
+#include "scintray/transport/lane_width.hpp"
+#include "work_kind.hpp"
 
 namespace scintray::bench {
 
@@ -13,17 +17,32 @@ using nlohmann::json;
 
 namespace {
 
+/// The word of the kind of work of each place: [library, file, function], the library empty for the program.
+json kinds_of(const json& places) {
+  json words = json::array();
+  for (const json& place : places) {
+    const std::string library = place.at(0), file = place.at(1), function = place.at(2);
+    // What is inlined has the file of its own, and the function that it is in.
+    const WorkKind kind =
+        library.empty() ? kind_of_code({{"", file}, {function, ""}}) : kind_of_library(library);
+    words.push_back(core::word_of(kWorkKinds, kind));
+  }
+  return {{"kinds", words}};
+}
+
+json machine() {
+  return {{"cpu", this_machine().cpu},
+          {"cycles_per_ns", core_clock_per_ns()},
+          {"lane_widths", transport::lane_widths()}};
+}
+
 /// The last scene requested, built.
 class Server {
  public:
   json answer(const json& request) {
-    const std::string name = request.at("scene");
-    if (name != name_) {
-      const BenchScene& scene = scene_named(name);
-      workload_.reset();
-      workload_ = std::make_unique<Workload>(scene);
-      name_ = name;
-    }
+    if (request.contains("kinds_of")) return kinds_of(request.at("kinds_of"));
+    if (request.contains("machine")) return machine();
+    build(request);
     if (request.contains("seconds")) return {{"work", calibrate(*workload_, request.at("seconds")).work}};
     const Trace trace = workload_->trace(request.at("work"), request.at("threads"));
     return {{"segments", trace.segments},
@@ -34,7 +53,21 @@ class Server {
   }
 
  private:
+  void build(const json& request) {
+    const std::string name = request.at("scene");
+    std::optional<int> lane_width;
+    if (request.contains("lane_width")) lane_width = request.at("lane_width").get<int>();
+    if (name == name_ && lane_width == lane_width_) return;
+    const BenchScene& scene = scene_named(name);
+    workload_.reset();
+    name_.clear();
+    workload_ = std::make_unique<Workload>(scene, lane_width);
+    name_ = name;
+    lane_width_ = lane_width;
+  }
+
   std::string name_;
+  std::optional<int> lane_width_;
   std::unique_ptr<const Workload> workload_;
 };
 

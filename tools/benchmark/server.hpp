@@ -5,10 +5,16 @@
 ///     {"segments": 1234567, "photons": 8192, "events": 0, "wall_s": 0.101, "cpu_s": 0.100}
 ///     {"scene": "polished", "seconds": 0.1}
 ///     {"work": 81920}
+///     {"machine": true}
+///     {"cpu": "AMD EPYC", "cycles_per_ns": 3.7, "lane_widths": [1, 2, 4, 8]}
+///     {"kinds_of": [["", "src/scintray/optics/fresnel_laws.hpp", "scintray::transport::step()"]]}
+///     {"kinds": ["surface"]}
 ///
-/// The second request calibrates: the work that takes that time on one thread. A request that fails is
-/// answered with {"error": "why"}. These lines are how binaries of different revisions compare, so that a key
-/// may be added, but none may change its meaning.
+/// The second request calibrates: the work that takes that time on one thread. The fourth asks for the kinds
+/// of work of places: library (empty: the program itself), source file, and the function that it is compiled
+/// into. The first two may have a "lane_width". A request that fails is answered with {"error": "why"}. These
+/// lines are how binaries of different revisions compare, so that a key may be added, but none may change its
+/// meaning.
 
 #include <iosfwd>
 #include <string>

@@ -1,0 +1,101 @@
+"""tools/limits counts and times; see there."""
+
+import argparse
+import statistics
+import sys
+import tempfile
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+sys.path.insert(1, str(Path(__file__).resolve().parents[1]))
+import bench_program  # noqa: E402
+import callgrind_file  # noqa: E402
+import report  # noqa: E402
+import rows  # noqa: E402
+import version_scenes  # noqa: E402
+
+ROUNDS = 3
+
+
+def arguments():
+    parser = argparse.ArgumentParser(prog='tools/limits', description='Instructions, loads, stores and wrong predictions a segment, '
+                                     'the time that they take, and what a factor asked over an earlier version leaves.')
+    names = [row.scene for row in rows.ROWS]
+    parser.add_argument('program', type=Path, help=argparse.SUPPRESS)
+    parser.add_argument('--scene', action='append', metavar='NAME', choices=names, help=f'of {", ".join(names)}; may be repeated')
+    parser.add_argument('--before', type=Path, metavar='PROGRAM', help='scintray of the version that factors are over: 0.1')
+    parser.add_argument('--before-tree', default='', metavar='FOLDER', help='the repository that it is built from')
+    parser.add_argument('--seconds', type=float, default=1.0, help='timed tracing of a scene, about')
+    return parser.parse_args()
+
+
+def counted_before(options, scene, row, folder):
+    """Instructions a segment of the earlier version, as the difference of two runs."""
+    totals, unit = [], scene.size[0]
+    path = version_scenes.write(scene, folder, for_other=True)
+    for work in (row.work, 3 * row.work):
+        output = Path(folder) / 'counts'
+        segments, _ = version_scenes.run([*bench_program.CALLGRIND, f'--callgrind-out-file={output}', str(options.before)],
+                                         options.before_tree, path, [unit, str(work)], folder)
+        counted = callgrind_file.read(output).values()
+        totals.append((segments, sum(counts.get('Ir', 0) for counts in counted)))
+    (fewer, less), (segments, instructions) = totals
+    return (instructions - less) / (segments - fewer)
+
+
+def seconds_before(options, scene, folder):
+    path = version_scenes.write(scene, folder, for_other=True)
+    segments, seconds = version_scenes.run([str(options.before)], options.before_tree, path, scene.size, folder)
+    return 1e9 * seconds / segments
+
+
+def timed(options, program, chosen, widths):
+    """ns a segment of the rows, and of what they are compared with, in turns: {scene: {lanes: ns}}, {scene: ns before}."""
+    scenes = sorted({row.scene for row in chosen} | {row.of for row in chosen if row.of})
+    now = {scene: {width: [] for width in widths} for scene in scenes}
+    before = {row.scene: [] for row in chosen if options.before and not row.of}
+    by_title = {scene.title: scene for scene in version_scenes.ROWS}
+    with tempfile.TemporaryDirectory() as folder:
+        for _ in range(ROUNDS):
+            for scene in scenes:
+                for width in widths:
+                    now[scene][width] += program.nanoseconds([scene], width, options.seconds / ROUNDS).values()
+                if scene in before:
+                    before[scene].append(seconds_before(options, by_title[scene], folder))
+    return ({scene: {width: statistics.median(values) for width, values in of.items()} for scene, of in now.items()},
+            {scene: statistics.median(values) for scene, values in before.items()})
+
+
+def measured(options, program, widths):
+    chosen = [row for row in rows.ROWS if not options.scene or row.scene in options.scene]
+    counts, instructions = {}, {}
+    by_title = {scene.title: scene for scene in version_scenes.ROWS}
+    for row in chosen:
+        print(f'counting {row.scene}', file=sys.stderr, flush=True)
+        counts[row.scene] = program.counts(row.scene, report.COUNTED_LANES, row.work)
+        if options.before and not row.of:
+            with tempfile.TemporaryDirectory() as folder:
+                instructions[row.scene] = counted_before(options, by_title[row.scene], row, folder)
+    print('timing', file=sys.stderr, flush=True)
+    now, before = timed(options, program, chosen, widths)
+    return [report.Figures(row, counts[row.scene], now[row.scene], now.get(row.of, {}),
+                           report.Before(instructions[row.scene], before[row.scene]) if row.scene in before else None)
+            for row in chosen]
+
+
+def main():
+    options = arguments()
+    program = bench_program.BenchProgram(options.program)
+    try:
+        machine = program.machine()
+        widths = [width for width in (report.COUNTED_LANES, 8) if width in machine['lane_widths']]
+        if report.COUNTED_LANES not in widths:
+            raise bench_program.Failed('this processor has no AVX2, in which the kernels are counted')
+        figures = measured(options, program, widths)
+    except (bench_program.Failed, version_scenes.Refused, ValueError) as error:
+        sys.exit(f'error: {error}')
+    print(report.text_of(figures, machine, program.version), end='')
+
+
+if __name__ == '__main__':
+    main()

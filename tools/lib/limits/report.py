@@ -1,0 +1,119 @@
+"""The tables of tools/limits, as Markdown."""
+
+import dataclasses
+
+import rows
+from bench_program import SceneCounts
+
+KINDS = ('ray query', 'propagation', 'surface', 'random', 'elementary', 'emission', 'tally', 'readout', 'other')
+COUNTED_LANES = 4  # valgrind knows no AVX-512
+
+
+@dataclasses.dataclass
+class Before:
+    """A scene in the earlier version."""
+
+    instructions: float  # a segment
+    nanoseconds: float
+
+
+@dataclasses.dataclass
+class Figures:
+    """A row as measured; nanoseconds by lanes, those of the scene that it is compared with apart."""
+
+    row: rows.Row
+    counts: SceneCounts
+    nanoseconds: dict
+    of_nanoseconds: dict
+    before: Before | None = None
+
+
+def table(headings, lines):
+    text = ['| ' + ' | '.join(headings) + ' |', '|' + ' --- |' + ' ---: |' * (len(headings) - 1)]
+    return '\n'.join(text + ['| ' + ' | '.join(line) + ' |' for line in lines]) + '\n'
+
+
+def number(value, digits=0):
+    return '-' if value is None else f'{value:.{digits}f}'
+
+
+def bounds(figures, clock):
+    """ns a segment: what dispatch, four instructions a cycle, loads, wrong predictions and the chain take by themselves."""
+    whole = figures.counts.whole
+    chained = sum(cycles for _, cycles in rows.chain(COUNTED_LANES)) / COUNTED_LANES if figures.row.chained else None
+    cycles = [whole.instructions / rows.DISPATCHED, whole.instructions / 4, whole.loads / rows.LOADED,
+              whole.mispredicted * rows.MISPREDICTED, chained]
+    return [None if count is None else count / clock for count in cycles]
+
+
+def table_of_counts(measured):
+    lines = []
+    for figures in measured:
+        counts, whole = figures.counts, figures.counts.whole
+        lines.append([figures.row.scene, number(counts.segments_per_photon, 1), number(whole.instructions), number(whole.loads),
+                      number(whole.stores), number(whole.mispredicted, 2), number(counts.kernels.instructions),
+                      *(number(counts.by_kind[kind].instructions if kind in counts.by_kind else 0) for kind in KINDS)])
+    return table(['scene', 'segments a photon', 'instructions', 'loads', 'stores', 'wrong predictions', 'kernels', *KINDS], lines)
+
+
+def table_of_times(measured, clock):
+    lines = []
+    lanes = sorted({width for figures in measured for width in figures.nanoseconds})
+    for figures in measured:
+        ns = figures.nanoseconds
+        rate = figures.counts.whole.instructions / ns[COUNTED_LANES]
+        lines.append([figures.row.scene, *(number(ns.get(width), 1) for width in lanes), number(rate, 1), number(rate / clock, 2),
+                      *(number(bound, 1) for bound in bounds(figures, clock))])
+    return table(['scene', *(f'ns, {width} lanes' for width in lanes), 'instructions a ns', 'a cycle',
+                  f'ns at {rows.DISPATCHED} instructions a cycle', 'at 4', f'ns at {rows.LOADED} loads a cycle',
+                  'ns of wrong predictions', 'ns of the chain'], lines)
+
+
+def asked_nanoseconds(figures, lanes=COUNTED_LANES):
+    """Time a segment (ns) that the factor leaves; None without what it is a factor over."""
+    if figures.row.of:
+        return figures.of_nanoseconds[lanes] / figures.row.factor
+    return figures.before.nanoseconds / figures.row.factor if figures.before else None
+
+
+def conclusion(figures, asked):
+    """What the factor would take, by the instructions that fit in its time at the present rate."""
+    if asked is None:
+        return '-'
+    ns, counts = figures.nanoseconds[COUNTED_LANES], figures.counts
+    if ns <= asked:
+        return 'met'
+    left = asked * counts.whole.instructions / ns
+    outside = counts.whole.instructions - counts.kernels.instructions
+    if outside > left:
+        return f'what is not in kernels takes {outside / left:.2f} of it'
+    return f'kernels in {left - outside:.0f} in place of {counts.kernels.instructions:.0f}'
+
+
+def table_of_factors(measured):
+    lines = []
+    for figures in measured:
+        row, ns, whole = figures.row, figures.nanoseconds, figures.counts.whole.instructions
+        asked = asked_nanoseconds(figures)
+        reached = []
+        for lanes in sorted(ns):
+            base = figures.of_nanoseconds[lanes] if row.of else figures.before and figures.before.nanoseconds
+            reached.append(number(base / ns[lanes] if base else None, 2))
+        lines.append([row.scene, f'{row.factor:g} x' + (f' {row.of}' if row.of else ''),
+                      number(figures.before and figures.before.instructions), number(figures.before and figures.before.nanoseconds, 1),
+                      *reached, number(asked, 1), number(asked and asked * whole / ns[COUNTED_LANES]), number(whole),
+                      number(whole - figures.counts.kernels.instructions), conclusion(figures, asked)])
+    lanes = sorted(measured[0].nanoseconds) if measured else []
+    return table(['scene', 'asked', 'before: instructions', 'before: ns', *(f'reached, {width} lanes' for width in lanes),
+                  'ns asked', 'instructions in that time', 'instructions now', 'of them not in kernels', 'so'], lines)
+
+
+def text_of(measured, machine, version):
+    clock = machine['cycles_per_ns']
+    parts = [f'{version}, {machine["cpu"]}, {clock:.2f} cycles a ns. All a segment, one thread; counts and rates of '
+             f'{COUNTED_LANES} lanes.\n',
+             table_of_counts(measured), table_of_times(measured, clock), table_of_factors(measured)]
+    if any(figures.row.chained for figures in measured):
+        parts.append('The chain, cycles of a vector: ' +
+                     ', '.join(f'{what} {cycles}' for what, cycles in rows.chain(COUNTED_LANES)) + '.\n')
+    return '\n'.join(parts)

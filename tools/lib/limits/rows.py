@@ -1,0 +1,54 @@
+"""The scenes whose limits are stated, what was asked of them, and what a processor can do at most."""
+
+import dataclasses
+
+
+@dataclasses.dataclass
+class Row:
+    """A scene of the benchmark.
+
+    factor  asked, over the segments/s of version 0.1; with `of`: over those of that scene
+    work    photons, or events, of the smaller of two counts: some hundred thousand segments between them
+    """
+
+    scene: str
+    factor: float
+    work: int
+    of: str = ''
+    chained: bool = False  # each segment waits for the one before, in the kernel for total reflections
+
+
+ROWS = [
+    Row('polished', 4.0, 4096, chained=True),
+    Row('unified', 4.0, 16384),
+    Row('table', 4.0, 16384),
+    Row('painted', 3.0, 4096),
+    Row('table_ptfe', 3.0, 4096),
+    Row('polished_3072', 1.5, 3072),
+    Row('block', 2.5, 4096),
+    Row('array_20_wrapped', 2.5, 2048),
+    Row('array_40_bare', 0.8, 2048, of='array_1_bare'),
+    Row('gamma_array', 2.5, 1),
+]
+
+# Zen 4, by LLVM's model of it (llvm/lib/Target/X86/X86ScheduleZnver4.td of llvm/llvm-project), which names AMD's
+# Software Optimization Guide 57647: macro-ops dispatched and floating-point loads in a cycle, cycles that a wrong
+# prediction commonly costs. Assumed: that an instruction is one macro-op.
+DISPATCHED, LOADED, MISPREDICTED = 6, 2, 13
+
+# The longest chain from one segment's direction to the next one's, in the kernel for total reflections in a box
+# (lane_kernel_of.hpp), with the cycles of its instructions by the same source. Divisions of the three pairs of planes
+# begin one after another. Not counted: that a load may wait until narrower stores have left their queue.
+ADD, MULTIPLY, DIVIDE, COMPARE, BLEND, STORE, LOAD, CONVERT = 3, 3, 13, 2, 1, 1, 8, 1
+DIVIDES_EVERY = {4: 5, 8: 10}  # cycles, by lanes
+
+
+def chain(lanes):
+    """(what, cycles) of the chain, for all lanes of a vector together."""
+    dot = MULTIPLY + 2 * ADD
+    return [('direction times normal', dot + BLEND),
+            ('three divisions', DIVIDE + 2 * DIVIDES_EVERY[lanes]),
+            ('the nearest plane', COMPARE + 2 * BLEND),
+            ('its number out of the vector', STORE + LOAD + CONVERT),
+            ('its normal into a vector', LOAD + STORE + LOAD),
+            ('the direction reflected', MULTIPLY + ADD)]

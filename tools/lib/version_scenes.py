@@ -1,0 +1,123 @@
+"""The benchmark's scenes as files that other versions of the program read, version 0.1 (commit 819c164) among them.
+
+That one has no key `curved`, which is left out, and knows facets only. A mesh that the benchmark makes is written beside
+the scene."""
+
+import dataclasses
+import os
+import subprocess
+from pathlib import Path
+
+SCENES = Path(__file__).resolve().parents[1] / "benchmark" / "scenes"
+
+
+@dataclasses.dataclass
+class Row:
+    """A scene of the benchmark with the texts that take the place of others, and its size."""
+
+    title: str
+    file: str
+    changes: list
+    size: list
+    divisions: int = 0  # of each edge of the crystal's box, as triangles of a mesh; 0: the box itself
+
+
+def crystal(title, surface, photons, accelerator="auto", divisions=0):
+    changes = [('surface = "polished"            # set', f'surface = "{surface}"  # set'),
+               ('accelerator = "auto"', f'accelerator = "{accelerator}"')]
+    if divisions:
+        changes.append(('box = ["2 mm", "2 mm", "20 mm"]', 'mesh = "crystal.off"\nunit = "mm"'))
+    return Row(title, "crystal.toml", changes, ["--photons", str(photons)], divisions)
+
+
+def array(count, kind, surface, photons):
+    return Row(f"array_{count}_{kind}", "array.toml",
+               [("count = [1, 1]", f"count = [{count}, {count}]"), ('crystal[0,0]', f"crystal[{count // 2},{count // 2}]"),
+                ('surface = "polished"            # set', f'surface = "{surface}"  # set')],
+               ["--photons", str(photons)])
+
+
+ROWS = [
+    crystal("polished", "polished", 320_000),
+    crystal("polished_embree", "polished", 160_000, "embree"),
+    crystal("polished_3072", "polished", 80_000, "embree", 16),
+    crystal("unified", "roncali2013_unified_rough", 800_000),
+    crystal("table", "lso_ground_30um_420nm", 800_000),
+    crystal("painted", "painted", 400_000),
+    crystal("table_ptfe", "table_ptfe", 100_000),
+    crystal("height_map", "ground_on_the_spot", 40_000),
+    Row("tape", "tape.toml", [], ["--photons", "60000"]),
+    array(1, "bare", "polished", 200_000),
+    array(20, "bare", "polished", 100_000),
+    array(40, "bare", "polished", 100_000),
+    array(1, "wrapped", "polished_lambertian_097", 100_000),
+    array(20, "wrapped", "polished_lambertian_097", 100_000),
+    array(40, "wrapped", "polished_lambertian_097", 100_000),
+    Row("block", "block.toml", [], ["--photons", "40000"]),
+    Row("million_triangles", "ball.toml", [("subdivisions = 224", "subdivisions = 100")],
+        ["--photons", "20000"]),
+    Row("gamma_array", "gamma.toml", [], ["--events", "40"]),
+]
+
+
+def off_of_box(divisions, half=(1, 1, 10)):
+    """A box about the origin as an OFF file, each face of divisions x divisions squares of two triangles."""
+    numbers, triangles = {}, []
+
+    def corner(axis, side, i, j):
+        at = [0, 0, 0]
+        at[axis], at[(axis + 1) % 3], at[(axis + 2) % 3] = side * divisions, 2 * i - divisions, 2 * j - divisions
+        return numbers.setdefault(tuple(at), len(numbers))
+
+    for axis in range(3):
+        for side in (-1, 1):
+            for i in range(divisions):
+                for j in range(divisions):
+                    a, b, c, d = (corner(axis, side, i + u, j + v) for u, v in ((0, 0), (1, 0), (1, 1), (0, 1)))
+                    triangles += [(a, b, c), (a, c, d)] if side > 0 else [(a, c, b), (a, d, c)]
+    points = [" ".join(str(x * h / divisions) for x, h in zip(at, half)) for at in numbers]
+    faces = [f"3 {a} {b} {c}" for a, b, c in triangles]
+    return "\n".join(["OFF", f"{len(points)} {len(faces)} 0", *points, *faces, ""])
+
+
+def write(row, folder, for_other=False):
+    """Writes the scene of a row, for another version where that is said; the path. Raises ValueError for a scene that
+    has not the texts to be changed."""
+    folder = Path(folder)
+    text = (SCENES / row.file).read_text(encoding="utf-8")
+    for old, new in row.changes:
+        if old not in text:
+            raise ValueError(f"{row.file} has no {old!r}")
+        text = text.replace(old, new)
+    if for_other:
+        text = text.replace('curved = "facets"\n', "")
+    if row.divisions:
+        (folder / "crystal.off").write_text(off_of_box(row.divisions), encoding="utf-8")
+    path = folder / (("other_" if for_other else "") + row.title + ".toml")
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+class Refused(Exception):
+    """What a program said of a scene that it does not run."""
+
+
+def run(program, tree, scene, size, folder):
+    """Segments of a run on one thread, and the seconds that their tracing took.
+
+    program  the command, as a list of words; tree: the repository whose materials it takes, empty for its own
+    size     words that set the number of photons or events
+    """
+    import h5py
+    import numpy
+    output = Path(folder) / "out.h5"
+    output.unlink(missing_ok=True)
+    environment = {**os.environ, "SCINTRAY_DATA": str(tree)} if tree else None
+    done = subprocess.run([*program, "run", str(scene), "-o", str(output), "--threads", "1", "--no-report", "--quiet", *size],
+                          capture_output=True, text=True, env=environment, check=False)
+    if done.returncode != 0:
+        raise Refused(" ".join(done.stderr.split())[:160])
+    with h5py.File(output) as file:
+        points = file["points"].values()
+        return (sum(int(numpy.ravel(point["segments"])[0]) for point in points),
+                sum(float(numpy.ravel(point["wall_seconds"])[0]) for point in points))
