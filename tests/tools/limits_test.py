@@ -106,6 +106,9 @@ class Limits(unittest.TestCase):
         # Half of the time leaves 50 instructions, less than the 60 outside of the kernels.
         self.assertEqual(report.conclusion(figures(20.0, 40.0), 10.0), 'what is not in kernels takes 1.20 of it')
         self.assertEqual(report.conclusion(figures(20.0, 40.0, outside=30.0), 10.0), 'kernels in 20 in place of 70')
+        alone = figures(20.0, 40.0, outside=100.0)
+        alone.counts.by_kind['ray query'] = Counts(25.0)
+        self.assertEqual(report.conclusion(alone, 10.0), 'no kernels; the ray query alone takes 0.50 of it')
         self.assertEqual(report.asked_nanoseconds(figures(20.0, 40.0)), 10.0)
 
     def test_tables_have_as_many_columns_in_each_line(self):

@@ -7,6 +7,7 @@ from bench_program import SceneCounts
 
 KINDS = ('ray query', 'propagation', 'surface', 'random', 'elementary', 'emission', 'tally', 'readout', 'other')
 COUNTED_LANES = 4  # valgrind knows no AVX-512
+FEW = 0.02  # share of instructions below which a scene has no kernels
 
 
 @dataclasses.dataclass
@@ -85,6 +86,8 @@ def conclusion(figures, asked):
         return 'met'
     left = asked * counts.whole.instructions / ns
     outside = counts.whole.instructions - counts.kernels.instructions
+    if counts.kernels.instructions < FEW * counts.whole.instructions:
+        return f'no kernels; the ray query alone takes {counts.by_kind["ray query"].instructions / left:.2f} of it'
     if outside > left:
         return f'what is not in kernels takes {outside / left:.2f} of it'
     return f'kernels in {left - outside:.0f} in place of {counts.kernels.instructions:.0f}'
