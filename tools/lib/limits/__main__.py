@@ -1,6 +1,8 @@
 """tools/limits counts and times; see there."""
 
 import argparse
+import concurrent.futures
+import os
 import statistics
 import sys
 import tempfile
@@ -66,21 +68,26 @@ def timed(options, program, chosen, widths):
             {scene: statistics.median(values) for scene, values in before.items()})
 
 
+def counted(options, program, row):
+    """Counts of a row, and instructions a segment of the earlier version."""
+    print(f'counting {row.scene}', file=sys.stderr, flush=True)
+    counts = program.counts(row.scene, report.COUNTED_LANES, row.work)
+    if not options.before or row.of:
+        return counts, None
+    scene = next(scene for scene in version_scenes.ROWS if scene.title == row.scene)
+    with tempfile.TemporaryDirectory() as folder:
+        return counts, counted_before(options, scene, row, folder)
+
+
 def measured(options, program, widths):
     chosen = [row for row in rows.ROWS if not options.scene or row.scene in options.scene]
-    counts, instructions = {}, {}
-    by_title = {scene.title: scene for scene in version_scenes.ROWS}
-    for row in chosen:
-        print(f'counting {row.scene}', file=sys.stderr, flush=True)
-        counts[row.scene] = program.counts(row.scene, report.COUNTED_LANES, row.work)
-        if options.before and not row.of:
-            with tempfile.TemporaryDirectory() as folder:
-                instructions[row.scene] = counted_before(options, by_title[row.scene], row, folder)
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        counts = list(pool.map(lambda row: counted(options, program, row), chosen))
     print('timing', file=sys.stderr, flush=True)
     now, before = timed(options, program, chosen, widths)
-    return [report.Figures(row, counts[row.scene], now[row.scene], now.get(row.of, {}),
-                           report.Before(instructions[row.scene], before[row.scene]) if row.scene in before else None)
-            for row in chosen]
+    return [report.Figures(row, counts_now, now[row.scene], now.get(row.of, {}),
+                           report.Before(instructions, before[row.scene]) if row.scene in before else None)
+            for row, (counts_now, instructions) in zip(chosen, counts)]
 
 
 def main():

@@ -94,6 +94,8 @@ class BenchProgram:
             less, more = (callgrind_file.read(f'{output}.{number}') for number in (2, 3))
         counted = callgrind_file.difference(more, less)
         segments = traced[2]['segments'] - traced[1]['segments']
+        if segments == 0:
+            raise Failed(f'{scene}: {3 * work} photons or events make no more segments than {work}')
         return self.attributed(counted, segments, segments / (traced[2]['photons'] - traced[1]['photons']))
 
     def attributed(self, counted, segments, segments_per_photon):

@@ -28,7 +28,7 @@ ROWS = [
     Row('block', 2.5, 4096),
     Row('array_20_wrapped', 2.5, 2048),
     Row('array_40_bare', 0.8, 2048, of='array_1_bare'),
-    Row('gamma_array', 2.5, 1),
+    Row('gamma_array', 2.5, 8),
 ]
 
 # Zen 4, by LLVM's model of it (llvm/lib/Target/X86/X86ScheduleZnver4.td of llvm/llvm-project), which names AMD's
