@@ -75,8 +75,6 @@ ELSEWHERE = {
     'scintray run scenes/roncali2013/light_output.toml --quick': 'tests/regression; a minute and more',
     'scintray import detector.step -o detector.toml':
         'a build without Open CASCADE refuses STEP files; tests/mesh/step_test.cpp reads some, tests/cli imports other bodies',
-    'valgrind --tool=cachegrind --cache-sim=no --branch-sim=yes build/ci/bin/scintray run rough.toml -t 1 --photons $n':
-        'a measurement; the scene is one of tools/benchmark',
     'scintray run polished.toml -t 1 --photons $n -o $n.h5 --no-report': 'a measurement of ten million photons',
 }
 GROUND = 'table stack --rays 100 lso_ground_30um --inside LSO --outside air --wavelength "420 nm" -o ground.h5'

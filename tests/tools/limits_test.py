@@ -90,9 +90,9 @@ class Limits(unittest.TestCase):
         program = BenchProgram('/bin/scintray_bench')
         asked = []
 
-        def ask(requests, before=()):
-            asked.extend(requests[0]['kinds_of'])
-            return [{'kinds': ['ray query' if library else 'propagation' for library, _, _ in requests[0]['kinds_of']]}]
+        def ask(request):
+            asked.extend(request['kinds_of'])
+            return {'kinds': ['ray query' if library else 'propagation' for library, _, _ in request['kinds_of']]}
         program.ask = ask
         result = program.attributed(read(FILE), 10, 5.0)
         self.assertIn(['libembree3.so.3', '???', 'rtcIntersect1'], asked)

@@ -16,7 +16,6 @@
 #include "pairing.hpp"
 #include "report_json.hpp"
 #include "report_text.hpp"
-#include "scintray/core/child_process.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/output_file.hpp"
 #include "scintray/core/version.hpp"
@@ -146,10 +145,7 @@ void compare_programs(const std::vector<BenchScene>& scenes, const Options& opti
 }
 
 void run(const Options& options) {
-  if (options.serve) {
-    core::work_in_place();  // under valgrind what it does in children would reach their limits
-    return serve(std::cin, std::cout);
-  }
+  if (options.serve) return serve(std::cin, std::cout);
   const std::vector<BenchScene> scenes = select_scenes(options.scenes);
   if (options.list) return list_scenes(scenes);
   if (!options.against.empty()) return compare_programs(scenes, options);

@@ -12,6 +12,9 @@ import callgrind_file
 # Counted is what this function does, in a file for each call of it.
 TRACE = 'scintray::bench::Workload::trace(unsigned long, int) const'
 CALLGRIND = ['valgrind', '--tool=callgrind', '--cache-sim=yes', '--branch-sim=yes']
+# Building a scene is not counted, which is many times faster so, and processes that read its tables keep to their limits.
+COUNT_LATER = ['--instr-atstart=no', f'--toggle-collect={TRACE}', f'--dump-after={TRACE}']
+FIRST_COUNTED = 2  # file of the first trace that is compared: those before it fill caches
 # Functions of the kernels that propagate photons in lanes.
 KERNEL = re.compile(r'\bLane(?:Passes|Propagation)<|\b(?:propagate|run)_lanes_(?:in_body_)?\d')
 
@@ -50,25 +53,47 @@ class SceneCounts:
     by_kind: dict  # of what is not in the kernels
 
 
+class Conversation:
+    """Requests to a server and its answers, one after the other."""
+
+    def __init__(self, command):
+        self.name = Path(command[0]).name
+        self.errors = tempfile.TemporaryFile('w+')
+        self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self.errors, text=True)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.process.stdin.close()
+        self.process.wait()
+        self.process.stdout.close()
+        self.errors.close()
+
+    def answer(self, request):
+        self.process.stdin.write(json.dumps(request) + '\n')
+        self.process.stdin.flush()
+        line = self.process.stdout.readline()
+        if not line:
+            self.errors.seek(0)
+            raise Failed(f'{self.name} ended before its answer: {self.errors.read()[-500:]}')
+        answer = json.loads(line)
+        if 'error' in answer:
+            raise Failed(answer['error'])
+        return answer
+
+
 class BenchProgram:
     def __init__(self, path):
         self.path = Path(path)
         self.version = ''  # once it has been timed
 
-    def ask(self, requests, before=()):
-        """The answers to requests. before: words in front of the command."""
-        lines = ''.join(json.dumps(request) + '\n' for request in requests)
-        done = subprocess.run([*before, str(self.path), '--serve'], input=lines, capture_output=True, text=True, check=False)
-        answers = [json.loads(line) for line in done.stdout.splitlines()]
-        for answer in answers:
-            if 'error' in answer:
-                raise Failed(answer['error'])
-        if len(answers) != len(requests):
-            raise Failed(f'{" ".join(before[:1]) or self.path.name} ended early: {done.stderr[-500:]}')
-        return answers
+    def ask(self, request):
+        with Conversation([str(self.path), '--serve']) as talk:
+            return talk.answer(request)
 
     def machine(self):
-        return self.ask([{'machine': True}])[0]
+        return self.ask({'machine': True})
 
     def nanoseconds(self, scenes, lane_width, seconds):
         """Processor time a segment (ns) by scene, on one thread."""
@@ -88,21 +113,26 @@ class BenchProgram:
         """Counts of a scene: the difference between 3 x work and work photons, or events, after as many that fill caches."""
         with tempfile.TemporaryDirectory() as folder:
             output = Path(folder) / 'counts'
-            traced = self.ask([{'scene': scene, 'lane_width': lane_width, 'work': count, 'threads': 1}
-                               for count in (work, work, 3 * work)],
-                              [*CALLGRIND, f'--callgrind-out-file={output}', f'--toggle-collect={TRACE}', f'--dump-after={TRACE}'])
-            less, more = (callgrind_file.read(f'{output}.{number}') for number in (2, 3))
-        counted = callgrind_file.difference(more, less)
-        segments = traced[2]['segments'] - traced[1]['segments']
+            with Conversation([*CALLGRIND, *COUNT_LATER, f'--callgrind-out-file={output}', str(self.path), '--serve']) as talk:
+                def trace(photons):
+                    return talk.answer({'scene': scene, 'lane_width': lane_width, 'work': photons, 'threads': 1})
+                trace(work)
+                subprocess.run(['callgrind_control', '--instr=on', str(talk.process.pid)], capture_output=True, check=True)
+                _, less, more = (trace(count) for count in (work, work, 3 * work))
+            if not Path(f'{output}.{FIRST_COUNTED + 1}').exists() or Path(f'{output}.{FIRST_COUNTED + 2}').exists():
+                raise Failed('valgrind wrote another number of counts than there were traces')
+            counts_less, counts_more = (callgrind_file.read(f'{output}.{number}') for number in (FIRST_COUNTED, FIRST_COUNTED + 1))
+        counted = callgrind_file.difference(counts_more, counts_less)
+        segments = more['segments'] - less['segments']
         if segments == 0:
             raise Failed(f'{scene}: {3 * work} photons or events make no more segments than {work}')
-        return self.attributed(counted, segments, segments / (traced[2]['photons'] - traced[1]['photons']))
+        return self.attributed(counted, segments, segments / (more['photons'] - less['photons']))
 
     def attributed(self, counted, segments, segments_per_photon):
         places = list(counted)
         own = self.path.name
-        kinds = self.ask([{'kinds_of': [['' if Path(place.object).name == own else Path(place.object).name,
-                                         place.file, place.function] for place in places]}])[0]['kinds']
+        kinds = self.ask({'kinds_of': [['' if Path(place.object).name == own else Path(place.object).name,
+                                         place.file, place.function] for place in places]})['kinds']
         result = SceneCounts(segments_per_photon, Counts(), Counts(), {})
         for place, kind in zip(places, kinds):
             counts = Counts.of(counted[place]) / segments
