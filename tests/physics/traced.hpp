@@ -77,11 +77,16 @@ inline scene_file::SceneSpec scene_spec(const std::string& text, const scene_fil
       .spec(0);
 }
 
-/// A scene ready to be traced, with surface tables of its own.
-inline std::shared_ptr<const simulation::SimulationPoint> ready(scene_file::SceneSpec spec) {
+/// Surface tables are made, not taken from the user's cache.
+inline materials::SurfaceFactory::Hooks tables_of_its_own() {
   materials::SurfaceFactory::Hooks hooks;
   hooks.cache.clear();
-  scene::SceneBuilder builder(hooks);
+  return hooks;
+}
+
+/// A scene ready to be traced, with surface tables of its own.
+inline std::shared_ptr<const simulation::SimulationPoint> ready(scene_file::SceneSpec spec) {
+  scene::SceneBuilder builder(tables_of_its_own());
   return std::make_shared<const simulation::SimulationPoint>(std::move(spec), builder);
 }
 
