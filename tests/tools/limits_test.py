@@ -1,5 +1,6 @@
 """tools/limits: what a file of callgrind counts, and what follows for a factor; the scenes that other versions read."""
 
+import dataclasses
 import sys
 import tempfile
 import unittest
@@ -58,7 +59,7 @@ def read(text):
 
 def figures(ns, before_ns, outside=60.0, factor=4.0):
     counts = SceneCounts(5.0, Counts(100.0, 20.0, 10.0, 1.0), Counts(100.0 - outside), {'emission': Counts(outside)})
-    return report.Figures(rows.Row('scene', factor, 1), counts, {4: ns}, {}, report.Before(500.0, before_ns))
+    return report.Figures(rows.Row('scene', factor, 1), counts, {4: ns}, {}, report.Before(200.0, before_ns))
 
 
 class Limits(unittest.TestCase):
@@ -102,14 +103,17 @@ class Limits(unittest.TestCase):
         self.assertEqual(result.whole.instructions, 43.2)
 
     def test_a_factor_is_met_or_says_what_it_would_take(self):
-        self.assertEqual(report.conclusion(figures(10.0, 40.0), 10.0), 'met')
-        # Half of the time leaves 50 instructions, less than the 60 outside of the kernels.
-        self.assertEqual(report.conclusion(figures(20.0, 40.0), 10.0), 'what is not in kernels takes 1.20 of it')
-        self.assertEqual(report.conclusion(figures(20.0, 40.0, outside=30.0), 10.0), 'kernels in 20 in place of 70')
+        self.assertEqual(report.conclusion(figures(10.0, 40.0)), 'met')
+        # A quarter of 200 leaves 50 instructions, less than the 60 outside of the kernels.
+        self.assertEqual(report.conclusion(figures(20.0, 40.0)), 'what is not in kernels takes 1.20 of them')
+        self.assertEqual(report.conclusion(figures(20.0, 40.0, outside=30.0)), 'kernels in 20 in place of 70')
         alone = figures(20.0, 40.0, outside=100.0)
         alone.counts.by_kind['ray query'] = Counts(25.0)
-        self.assertEqual(report.conclusion(alone, 10.0), 'no kernels; the ray query alone takes 0.50 of it')
+        self.assertEqual(report.conclusion(alone), 'no kernels; the ray query alone takes 0.50 of them')
         self.assertEqual(report.asked_nanoseconds(figures(20.0, 40.0)), 10.0)
+        # Over another scene, by its time now: 8 ns / 0.8 of the 20 ns that 100 instructions take.
+        other = dataclasses.replace(figures(20.0, 40.0), row=rows.Row('scene', 0.8, 1, of='one'), of_nanoseconds={4: 8.0})
+        self.assertEqual(report.instructions_left(other), 50.0)
 
     def test_tables_have_as_many_columns_in_each_line(self):
         text = report.text_of([figures(20.0, 40.0)], {'cpu': 'a processor', 'cycles_per_ns': 2.0}, 'ScintRay')

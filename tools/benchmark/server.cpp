@@ -1,5 +1,6 @@
 #include "server.hpp"
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -36,6 +37,14 @@ json machine() {
           {"lane_widths", transport::lane_widths()}};
 }
 
+int lane_width_of(const json& request) {
+  const int width = request;
+  const std::vector<int>& widths = transport::lane_widths();
+  if (std::find(widths.begin(), widths.end(), width) == widths.end())
+    throw core::InputError({{}, "this processor has no lanes of width " + std::to_string(width), ""});
+  return width;
+}
+
 /// The last scene requested, built.
 class Server {
  public:
@@ -56,7 +65,7 @@ class Server {
   void build(const json& request) {
     const std::string name = request.at("scene");
     std::optional<int> lane_width;
-    if (request.contains("lane_width")) lane_width = request.at("lane_width").get<int>();
+    if (request.contains("lane_width")) lane_width = lane_width_of(request.at("lane_width"));
     if (name == name_ && lane_width == lane_width_) return;
     const BenchScene& scene = scene_named(name);
     workload_.reset();

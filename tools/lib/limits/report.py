@@ -77,19 +77,25 @@ def asked_nanoseconds(figures, lanes=COUNTED_LANES):
     return figures.before.nanoseconds / figures.row.factor if figures.before else None
 
 
-def conclusion(figures, asked):
-    """What the factor would take, by the instructions that fit in its time at the present rate."""
+def instructions_left(figures):
+    """Instructions a segment that the factor leaves, at as many a ns as before; over another scene, at as many as now."""
+    if figures.row.of:
+        return asked_nanoseconds(figures) * figures.counts.whole.instructions / figures.nanoseconds[COUNTED_LANES]
+    return figures.before.instructions / figures.row.factor if figures.before else None
+
+
+def conclusion(figures):
+    """What the instructions that the factor leaves would have to do."""
+    asked, left, counts = asked_nanoseconds(figures), instructions_left(figures), figures.counts
     if asked is None:
         return '-'
-    ns, counts = figures.nanoseconds[COUNTED_LANES], figures.counts
-    if ns <= asked:
+    if figures.nanoseconds[COUNTED_LANES] <= asked:
         return 'met'
-    left = asked * counts.whole.instructions / ns
     outside = counts.whole.instructions - counts.kernels.instructions
     if counts.kernels.instructions < FEW * counts.whole.instructions:
-        return f'no kernels; the ray query alone takes {counts.by_kind["ray query"].instructions / left:.2f} of it'
+        return f'no kernels; the ray query alone takes {counts.by_kind["ray query"].instructions / left:.2f} of them'
     if outside > left:
-        return f'what is not in kernels takes {outside / left:.2f} of it'
+        return f'what is not in kernels takes {outside / left:.2f} of them'
     return f'kernels in {left - outside:.0f} in place of {counts.kernels.instructions:.0f}'
 
 
@@ -104,11 +110,11 @@ def table_of_factors(measured):
             reached.append(number(base / ns[lanes] if base else None, 2))
         lines.append([row.scene, f'{row.factor:g} x' + (f' {row.of}' if row.of else ''),
                       number(figures.before and figures.before.instructions), number(figures.before and figures.before.nanoseconds, 1),
-                      *reached, number(asked, 1), number(asked and asked * whole / ns[COUNTED_LANES]), number(whole),
-                      number(whole - figures.counts.kernels.instructions), conclusion(figures, asked)])
+                      *reached, number(asked, 1), number(instructions_left(figures)), number(whole),
+                      number(whole - figures.counts.kernels.instructions), conclusion(figures)])
     lanes = sorted(measured[0].nanoseconds) if measured else []
     return table(['scene', 'asked', 'before: instructions', 'before: ns', *(f'reached, {width} lanes' for width in lanes),
-                  'ns asked', 'instructions in that time', 'instructions now', 'of them not in kernels', 'so'], lines)
+                  'ns asked', 'instructions left', 'instructions now', 'of them not in kernels', 'so'], lines)
 
 
 def text_of(measured, machine, version):
