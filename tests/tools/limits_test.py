@@ -101,6 +101,7 @@ class Limits(unittest.TestCase):
         self.assertEqual(result.by_kind['ray query'].instructions, 40.0)
         self.assertEqual(result.by_kind['propagation'].instructions, 3.2)
         self.assertEqual(result.whole.instructions, 43.2)
+        self.assertEqual(SceneCounts.of_plain(dataclasses.asdict(result)), result)
 
     def test_a_factor_is_met_or_says_what_it_would_take(self):
         self.assertEqual(report.conclusion(figures(10.0, 40.0)), 'met')

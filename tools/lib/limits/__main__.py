@@ -2,7 +2,10 @@
 
 import argparse
 import concurrent.futures
+import dataclasses
+import json
 import os
+import resource
 import statistics
 import sys
 import tempfile
@@ -27,7 +30,9 @@ def arguments():
     parser.add_argument('--scene', action='append', metavar='NAME', choices=names, help=f'of {", ".join(names)}; may be repeated')
     parser.add_argument('--before', type=Path, metavar='PROGRAM', help='scintray of the version that factors are over: 0.1')
     parser.add_argument('--before-tree', default='', metavar='FOLDER', help='the repository that it is built from')
-    parser.add_argument('--seconds', type=float, default=1.0, help='timed tracing of a scene, about')
+    parser.add_argument('--seconds', type=float, default=2.0, help='timed tracing of a scene, about')
+    parser.add_argument('--counts', type=Path, metavar='FILE', help='take counts from this file, or count and write it: for '
+                        'times alone, again; of the same programs')
     return parser.parse_args()
 
 
@@ -45,10 +50,17 @@ def counted_before(options, scene, row, folder):
     return (instructions - less) / (segments - fewer)
 
 
-def seconds_before(options, scene, folder):
-    path = version_scenes.write(scene, folder, for_other=True)
-    segments, seconds = version_scenes.run([str(options.before)], options.before_tree, path, scene.size, folder)
-    return 1e9 * seconds / segments
+def nanoseconds_before(options, scene, folder):
+    """Processor time a segment (ns) of the earlier version: of a run less a short one, so that building is left out."""
+    path, (unit, size) = version_scenes.write(scene, folder, for_other=True), scene.size
+    runs = []
+    for work in (int(size) // 8, int(size)):
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        segments, _ = version_scenes.run([str(options.before)], options.before_tree, path, [unit, str(work)], folder)
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        runs.append((segments, after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime))
+    (fewer, less), (segments, seconds) = runs
+    return 1e9 * (seconds - less) / (segments - fewer)
 
 
 def timed(options, program, chosen, widths):
@@ -63,7 +75,7 @@ def timed(options, program, chosen, widths):
                 for width in widths:
                     now[scene][width] += program.nanoseconds([scene], width, options.seconds / ROUNDS).values()
                 if scene in before:
-                    before[scene].append(seconds_before(options, by_title[scene], folder))
+                    before[scene].append(nanoseconds_before(options, by_title[scene], folder))
     return ({scene: {width: statistics.median(values) for width, values in of.items()} for scene, of in now.items()},
             {scene: statistics.median(values) for scene, values in before.items()})
 
@@ -79,15 +91,29 @@ def counted(options, program, row):
         return counts, counted_before(options, scene, row, folder)
 
 
+def counts_of(options, program, chosen):
+    """{scene: (counts, instructions before)}, those kept in a file among them."""
+    kept = {}
+    if options.counts and options.counts.exists():
+        kept = {scene: (bench_program.SceneCounts.of_plain(counts), instructions)
+                for scene, (counts, instructions) in json.loads(options.counts.read_text(encoding='utf-8')).items()}
+    missing = [row for row in chosen if row.scene not in kept]
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        kept.update(zip((row.scene for row in missing), pool.map(lambda row: counted(options, program, row), missing)))
+    if options.counts and missing:
+        plain = {scene: (dataclasses.asdict(counts), instructions) for scene, (counts, instructions) in kept.items()}
+        options.counts.write_text(json.dumps(plain, indent=1) + '\n', encoding='utf-8')
+    return kept
+
+
 def measured(options, program, widths):
     chosen = [row for row in rows.ROWS if not options.scene or row.scene in options.scene]
-    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        counts = list(pool.map(lambda row: counted(options, program, row), chosen))
+    counts = counts_of(options, program, chosen)
     print('timing', file=sys.stderr, flush=True)
     now, before = timed(options, program, chosen, widths)
-    return [report.Figures(row, counts_now, now[row.scene], now.get(row.of, {}),
-                           report.Before(instructions, before[row.scene]) if row.scene in before else None)
-            for row, (counts_now, instructions) in zip(chosen, counts)]
+    return [report.Figures(row, counts[row.scene][0], now[row.scene], now.get(row.of, {}),
+                           report.Before(counts[row.scene][1], before[row.scene]) if row.scene in before else None)
+            for row in chosen]
 
 
 def main():

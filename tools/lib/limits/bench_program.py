@@ -52,6 +52,12 @@ class SceneCounts:
     kernels: Counts
     by_kind: dict  # of what is not in the kernels
 
+    @classmethod
+    def of_plain(cls, plain):
+        """From what dataclasses.asdict makes of it."""
+        by_kind = {kind: Counts(**counts) for kind, counts in plain['by_kind'].items()}
+        return cls(plain['segments_per_photon'], Counts(**plain['whole']), Counts(**plain['kernels']), by_kind)
+
 
 class Conversation:
     """Requests to a server and its answers, one after the other."""
