@@ -326,10 +326,10 @@ tracing = { mode = "on_the_spot" }
 mixture = [{ surface = "backed", share = 0.4 }, { surface = "polished", share = 0.6 }]
 )");
   }
-  SUBCASE("metal") {
-    scene = crystal("mirror", R"([surfaces.mirror]
+  SUBCASE("thin film") {
+    scene = crystal("coated", R"([surfaces.coated]
 model = "thin_film"
-films = [{ index = 0.6, extinction = 5.0, thickness = "100 nm" }]
+thin_film = { layers = [{ index = 1.38, thickness = "99.6 nm" }] }
 )");
   }
   SUBCASE("cut by interactions") { scene = crystal("polished", "[run]\nmax_interactions = 20\n"); }
