@@ -5,7 +5,7 @@ import dataclasses
 import rows
 from bench_program import SceneCounts
 
-KINDS = ('ray query', 'propagation', 'surface', 'random', 'elementary', 'emission', 'tally', 'readout', 'other')
+KINDS = ('ray query', 'propagation', 'surface', 'random', 'elementary', 'emission', 'tally', 'readout', 'other')  # the order
 COUNTED_LANES = 4  # valgrind knows no AVX-512
 FEW = 0.02  # share of instructions below which a scene has no kernels
 
@@ -48,13 +48,14 @@ def bounds(figures, clock):
 
 
 def table_of_counts(measured):
-    lines = []
+    lines, counted = [], {kind for figures in measured for kind in figures.counts.by_kind}
+    kinds = [*KINDS, *sorted(counted - set(KINDS))]  # none that the benchmark has is left out
     for figures in measured:
         counts, whole = figures.counts, figures.counts.whole
         lines.append([figures.row.scene, number(counts.segments_per_photon, 1), number(whole.instructions), number(whole.loads),
                       number(whole.stores), number(whole.mispredicted, 2), number(counts.kernels.instructions),
-                      *(number(counts.by_kind[kind].instructions if kind in counts.by_kind else 0) for kind in KINDS)])
-    return table(['scene', 'segments a photon', 'instructions', 'loads', 'stores', 'wrong predictions', 'kernels', *KINDS], lines)
+                      *(number(counts.by_kind[kind].instructions if kind in counts.by_kind else 0) for kind in kinds)])
+    return table(['scene', 'segments a photon', 'instructions', 'loads', 'stores', 'wrong predictions', 'kernels', *kinds], lines)
 
 
 def table_of_times(measured, clock):
