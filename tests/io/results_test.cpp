@@ -281,7 +281,7 @@ TEST_CASE("A result with impossible numbers is refused with what is wrong") {
 
 TEST_CASE("A list of three million photons streams through bounded memory") {
 #ifdef SCINTRAY_SANITIZED
-  MESSAGE("[skipped] the address sanitizer keeps freed memory, so the program's own cannot be told");
+  MESSAGE("[skipped] the address sanitizer keeps freed memory, so the program's own cannot be measured");
   return;
 #endif
   const auto path = test::scratch_folder("results_stream") / "run.h5";

@@ -125,7 +125,7 @@ TEST_CASE("Faces that are not round, or not exactly, are not recognized") {
   CHECK(radius_of(within, found[0]) == doctest::Approx(1.5).epsilon(1e-3));
 }
 
-TEST_CASE("Flat walls tangent to round ones are told apart: a bar with half-round sides") {
+TEST_CASE("Flat walls tangent to round ones are distinguished: a bar with half-round sides") {
   // Two half cylinders of radius 1 mm, 4 mm apart, and the planes between them.
   constexpr int kSides = 24;
   constexpr double kHeight = 5.0;
