@@ -1,7 +1,6 @@
 /// Light in birefringent media, against closed forms.
 
 #include "scintray/optics/birefringence.hpp"
-#include "scintray/optics/birefringent_faces.hpp"
 
 #include <doctest/doctest.h>
 

@@ -11,7 +11,7 @@
 /// field do not interfere with each other afterwards. That holds where their retardation is many wavelengths
 /// over the spectrum of the light, as in crystals of millimetres, and not in wave plates.
 ///
-/// Equations: Maxwell's, for plane waves; those of faces are in birefringent_faces.hpp.
+/// Equations: Maxwell's, for plane waves; those of faces are in birefringent_faces.cpp.
 /// tests/surface/birefringence_test.cpp checks them against closed forms.
 
 #include <array>
@@ -93,5 +93,11 @@ void emit_isotropic(const BirefringentOptics& medium, Ray& ray, core::Rng& rng);
 /// Rayleigh scattering: as emit_isotropic, with the square of the cosine between the fields before and after.
 /// With ModeOptics::rayleigh_rate each way is as frequent as its reverse.
 void scatter_rayleigh(const BirefringentOptics& medium, Ray& ray, core::Rng& rng);
+
+/// Shares of the power of what leaves a face between media of which one is birefringent at least, of light of
+/// the power 1: two reflected modes, then two transmitted ones (in a medium of one index: polarised across
+/// and in the plane of incidence). Arguments as for interact_at_birefringent.
+std::array<double, 4> power_shares(const Ray& ray, const core::Vec3& m, const FaceMedium& here,
+                                   const FaceMedium& behind);
 
 }  // namespace scintray::optics

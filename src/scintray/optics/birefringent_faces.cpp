@@ -1,14 +1,21 @@
-#include "scintray/optics/birefringent_faces.hpp"
+/// Light at faces of birefringent media: reflection and refraction into the modes of both sides.
+///
+/// Equations: Maxwell's, for plane waves (P. Yeh 1979, J. Opt. Soc. Am. 69, 742, and D. W. Berreman 1972, J.
+/// Opt. Soc. Am. 62, 502, have them in this form; both cited from memory, not opened).
+/// tests/surface/birefringence_test.cpp checks them against closed forms.
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <optional>
 #include <utility>
 
+#include "scintray/optics/birefringence.hpp"
 #include "scintray/optics/elliptical.hpp"
+#include "scintray/optics/fresnel.hpp"
 
 namespace scintray::optics {
 

@@ -1,9 +1,10 @@
 #pragma once
 /// Reflection and refraction of a photon at a smooth facet between two lossless dielectrics: the laws of
-/// fresnel_laws.hpp.
+/// fresnel_laws.hpp, and of birefringent_faces.cpp where one of them is birefringent.
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <type_traits>
 
 #include "scintray/core/philox.hpp"
@@ -13,6 +14,8 @@
 #include "scintray/optics/fresnel_laws.hpp"
 
 namespace scintray::optics {
+
+struct BirefringentOptics;
 
 using Refraction = RefractionOf<double>;
 using FresnelAmplitudes = FresnelAmplitudesOf<double>;
@@ -76,6 +79,33 @@ inline void scatter_lambertian(Ray& ray, const core::Vec3& normal, core::Rng& rn
   if (polarised) repolarise(ray, rng);
 }
 
+/// A medium at a face: of one index, or birefringent, where `index` is not used.
+struct FaceMedium {
+  double index = 1.0;
+  const BirefringentOptics* birefringent = nullptr;
+};
+
+/// Side of a microsurface on which a photon is.
+enum class Side : std::uint8_t { inside = 0, outside = 1 };
+
+constexpr Side other(Side side) { return side == Side::inside ? Side::outside : Side::inside; }
+
+/// Refractive indices on the two sides of a microsurface. Where a medium is birefringent, `inside` or
+/// `outside` is the index of the light's mode, or the mean of the medium's, for models that know one index
+/// only.
+struct IndexPair {
+  double inside = 1.0;
+  double outside = 1.0;
+  const BirefringentOptics* birefringent_inside = nullptr;
+  const BirefringentOptics* birefringent_outside = nullptr;
+
+  double on(Side side) const { return side == Side::inside ? inside : outside; }
+  FaceMedium medium_on(Side side) const {
+    return {on(side), side == Side::inside ? birefringent_inside : birefringent_outside};
+  }
+  bool birefringent() const { return birefringent_inside || birefringent_outside; }
+};
+
 /// Interaction with a smooth facet: reflects or refracts `ray` with the Fresnel probability of its
 /// polarisation and transforms the polarisation accordingly.
 ///
@@ -83,6 +113,25 @@ inline void scatter_lambertian(Ray& ray, const core::Vec3& normal, core::Rng& rn
 /// @param n1  index of the medium of incidence; @param n2 index behind the facet
 /// @return true when the ray was refracted into n2.
 bool interact_at_facet(Ray& ray, const core::Vec3& m, double n1, double n2, core::Rng& rng);
+
+/// As interact_at_facet(ray, m, n1, n2, rng), where at least one of the two media is birefringent: the ray
+/// leaves in one of the modes of the reflected or the transmitted light, with the share of each in the power.
+/// The fields are matched without approximation, evanescent ones included (birefringent_faces.cpp).
+///
+/// @param m  unit normal opposed to the ray
+/// @return true when the ray was refracted into `behind`
+[[gnu::noinline, gnu::cold]] bool interact_at_birefringent(Ray& ray, const core::Vec3& m,
+                                                           const FaceMedium& here, const FaceMedium& behind,
+                                                           core::Rng& rng);
+
+/// Interaction at a smooth facet of a microsurface of a ray on one side of it. Arguments and result as for
+/// interact_at_facet(ray, m, n1, n2, rng), which this is between two media of one index.
+inline bool interact_at_facet(Ray& ray, const core::Vec3& m, const IndexPair& index, Side side,
+                              core::Rng& rng) {
+  if (index.birefringent()) [[unlikely]]
+    return interact_at_birefringent(ray, m, index.medium_on(side), index.medium_on(other(side)), rng);
+  return interact_at_facet(ray, m, index.on(side), index.on(other(side)), rng);
+}
 
 /// Refraction of `ray` by Snell's law without any reflection, as of light transmitted by a thin film between
 /// indices n1 and n2; the shares of the two polarisations are kept. Beyond the critical angle the ray is

@@ -10,40 +10,9 @@
 
 #include "scintray/core/sampling.hpp"
 #include "scintray/core/shared.hpp"
-#include "scintray/optics/birefringent_faces.hpp"
 #include "scintray/optics/fresnel.hpp"
 
 namespace scintray::optics {
-
-/// Side of a microsurface on which a photon is.
-enum class Side : std::uint8_t { inside = 0, outside = 1 };
-
-constexpr Side other(Side side) { return side == Side::inside ? Side::outside : Side::inside; }
-
-/// Refractive indices on the two sides of a microsurface. Where a medium is birefringent, `inside` or
-/// `outside` is the index of the light's mode, or the mean of the medium's, for models that know one index
-/// only.
-struct IndexPair {
-  double inside = 1.0;
-  double outside = 1.0;
-  const BirefringentOptics* birefringent_inside = nullptr;
-  const BirefringentOptics* birefringent_outside = nullptr;
-
-  double on(Side side) const { return side == Side::inside ? inside : outside; }
-  FaceMedium medium_on(Side side) const {
-    return {on(side), side == Side::inside ? birefringent_inside : birefringent_outside};
-  }
-  bool birefringent() const { return birefringent_inside || birefringent_outside; }
-};
-
-/// Interaction at a smooth facet of a microsurface of a ray on one side of it. Arguments and result as for
-/// interact_at_facet(ray, m, n1, n2, rng), which this is between two media of one index.
-inline bool interact_at_facet(Ray& ray, const core::Vec3& m, const IndexPair& index, Side side,
-                              core::Rng& rng) {
-  if (index.birefringent()) [[unlikely]]
-    return interact_at_birefringent(ray, m, index.medium_on(side), index.medium_on(other(side)), rng);
-  return interact_at_facet(ray, m, index.on(side), index.on(other(side)), rng);
-}
 
 /// Frame of a directional surface on a face of unit normal `normal`: x along the projection of `along`; where
 /// that is zero (shorter than 1e-6), at a random azimuth.
