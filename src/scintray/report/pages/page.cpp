@@ -1,10 +1,8 @@
 #include "scintray/report/pages/page.hpp"
 
-#include "scintray/core/error.hpp"
 #include "scintray/core/output_file.hpp"
-#include "scintray/core/sha256.hpp"
 #include "scintray/core/version.hpp"
-#include "scintray/report/pages/detail/page_script.hpp"
+#include "scintray/report/pages/detail/html_document.hpp"
 #include "scintray/report/plots/svg_plot.hpp"
 #include "scintray/report/text/format.hpp"
 
@@ -43,10 +41,6 @@ constexpr const char* kPrintStyle = R"css(
   th, td, .n { padding: .2rem .4rem; white-space: normal; } td.why { min-width: 0; } }
 )css";
 
-}  // namespace
-
-namespace {
-
 /// Sections from which on a page has a list of them.
 constexpr std::size_t kListedSections = 4;
 
@@ -71,22 +65,14 @@ std::string with_contents(const std::string& body) {
 
 std::string html_frame(const std::string& title, const std::string& under, const std::string& style,
                        const std::string& body, const std::vector<std::string_view>& scripts) {
-  std::string hashes, elements;
-  for (const std::string_view script : scripts) {
-    hashes += (hashes.empty() ? "" : " ") + core::sha256(script);
-    elements.append("<script>").append(script).append("</script>\n");
-  }
-  std::string page = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n";
-  page += "<meta http-equiv=\"Content-Security-Policy\" content=\"" + content_policy(hashes) + "\"/>\n";
-  page += "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>" +
-          escape_html(title) + "</title>\n<style>" + kPageStyle + style + svg_plot_style() +
-          std::string(page_script_style()) + kPrintStyle + "</style>\n</head>\n<body>\n";
-  page += "<header>\n<h1>" + escape_html(title) + "</h1>\n<p class=\"under\">" + escape_html(under) +
-          "</p>\n</header>\n";
-  page += "<main>\n" + with_contents(body) + "</main>\n";
-  page += elements;
-  if (!page_script().empty()) page += "<script>" + std::string(page_script()) + "</script>\n";
-  return page + "</body>\n</html>\n";
+  const std::string header = "<header>\n<h1>" + escape_html(title) + "</h1>\n<p class=\"under\">" +
+                             escape_html(under) + "</p>\n</header>\n";
+  return html_document(
+      {.title = title,
+       .style = kPageStyle + style + svg_plot_style() + std::string(page_script_style()) + kPrintStyle,
+       .body = header + "<main>\n" + with_contents(body) + "</main>\n",
+       .scripts = scripts,
+       .page_script = true});
 }
 
 std::string html_page(const std::string& title, const std::string& under, const std::string& style,

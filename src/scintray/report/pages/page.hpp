@@ -1,7 +1,7 @@
 #pragma once
-/// The frame of the self-contained HTML pages: light and dark, nothing loaded from elsewhere. Their script
-/// (pages/detail/page_script.hpp) adds to what they show without it; no other may run but those that a
-/// page is given.
+/// The self-contained HTML pages: light and dark, nothing loaded from elsewhere.
+/// Their script (pages/detail/html_document.hpp) adds to what they show without it; no other may run but
+/// those that a page is given.
 
 #include <filesystem>
 #include <string>

@@ -3,13 +3,12 @@
 #include <map>
 
 #include "scintray/core/error.hpp"
-#include "scintray/core/sha256.hpp"
 #include "scintray/report/detail/embedded_file.hpp"
-#include "scintray/report/pages/detail/page_script.hpp"
+#include "scintray/report/pages/detail/html_document.hpp"
 #include "scintray/report/text/format.hpp"
 #include "scintray/report/view/detail/view_data.hpp"
 
-SCINTRAY_EMBED(scintray_view_page, SCINTRAY_VIEW_FOLDER "/view_page.html");
+SCINTRAY_EMBED(scintray_view_page_style, SCINTRAY_VIEW_FOLDER "/view_page.css");
 SCINTRAY_EMBED(scintray_view_section, SCINTRAY_VIEW_FOLDER "/scene_view.html");
 SCINTRAY_EMBED(scintray_view_style, SCINTRAY_VIEW_FOLDER "/scene_view.css");
 SCINTRAY_EMBED(scintray_view_script, SCINTRAY_VIEW_SCRIPT);
@@ -74,21 +73,14 @@ std::string view_page(const SceneView& view) {
     throw core::SystemError(
         "this ScintRay was built without three.js, which draws scenes in three dimensions; on Debian install "
         "libjs-three and build again");
-  const std::string title = escape_html(view.title), data = view_data(view, nullptr),
-                    head = "<h1>" + title + "</h1>";
+  const std::string data = view_data(view, nullptr), head = "<h1>" + escape_html(view.title) + "</h1>";
   const std::string section = filled({scintray_view_section, scintray_view_section_end},
                                      {{"KIND", "alone"}, {"HEAD", head}, {"OPEN", ""}, {"DATA", data}});
-  std::string scripts, hashes;
-  for (const std::string_view script : view_scripts()) {
-    scripts.append("<script>").append(script).append("</script>\n");
-    hashes += (hashes.empty() ? "" : " ") + core::sha256(script);
-  }
-  const std::string policy = content_policy(hashes);
-  return filled({scintray_view_page, scintray_view_page_end}, {{"TITLE", title},
-                                                               {"POLICY", policy},
-                                                               {"STYLE", view_style()},
-                                                               {"SECTION", section},
-                                                               {"SCRIPTS", scripts}});
+  return html_document({.title = view.title,
+                        .style = "\n" + filled({scintray_view_page_style, scintray_view_page_style_end},
+                                               {{"STYLE", view_style()}}),
+                        .body = "<main>\n" + section + "\n</main>\n",
+                        .scripts = view_scripts()});
 }
 
 std::string view_section(const RunView& view, const tally::RunResult& run) {

@@ -1,0 +1,26 @@
+#pragma once
+/// The frame of all HTML that is written: self-contained, nothing loaded from elsewhere.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace scintray::report {
+
+/// A whole document, of which no script may run but those that it holds.
+struct HtmlDocument {
+  std::string title;                        ///< plain text
+  std::string style;                        ///< CSS
+  std::string body;                         ///< HTML
+  std::vector<std::string_view> scripts{};  ///< after the body
+  bool page_script = false;                 ///< whether the script of pages follows them
+};
+
+/// The document's text. Its Content-Security-Policy allows its styles, its pictures and its scripts alone.
+std::string html_document(const HtmlDocument& document);
+
+/// CSS of the script of pages (values under the pointer, zoom, saved plots, sorted and searched tables);
+/// empty in a build without the D3 modules that the script uses.
+std::string_view page_script_style();
+
+}  // namespace scintray::report
