@@ -30,8 +30,24 @@ TEST_CASE("A file whose size is not known beforehand is read whole") {
   CHECK(status->find("Name:") == 0);
 }
 
+TEST_CASE("The beginning of a file is as long as requested, or the file") {
+  const auto folder = test::scratch_folder("input_file_beginning");
+  const std::string written(200'001, 'x');
+  write_whole_file(folder / "file", written);
+  for (const std::size_t most : {std::size_t{0}, std::size_t{1}, std::size_t{1} << 16, std::size_t{65'537},
+                                 std::size_t{200'001}, std::size_t{300'000}}) {
+    CAPTURE(most);
+    CHECK(read_beginning(folder / "file", most) == written.substr(0, most));
+  }
+  InputRecord record;
+  CHECK(read_beginning(folder / "file", 8).has_value());
+  CHECK(record.files().empty());
+}
+
 TEST_CASE("A file that cannot be read is returned as nothing") {
   const auto folder = test::scratch_folder("input_file_none");
+  CHECK_FALSE(read_beginning(folder / "missing", 8));
+  CHECK_FALSE(read_beginning(folder, 8));
   CHECK_FALSE(read_whole_file(folder / "missing"));
   CHECK_FALSE(read_whole_file(folder));
 }

@@ -2,12 +2,12 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <fstream>
 #include <iostream>
 #include <memory>
 
 #include "scintray/core/data_folder.hpp"
 #include "scintray/core/error.hpp"
+#include "scintray/core/input_file.hpp"
 #include "scintray/core/text.hpp"
 
 namespace scintray::cli {
@@ -27,9 +27,8 @@ std::vector<SceneTemplate> scene_templates() {
   std::vector<SceneTemplate> found;
   for (const fs::directory_entry& entry : fs::directory_iterator(core::data_folder() / "scenes/templates")) {
     if (entry.path().extension() != ".toml") continue;
-    std::ifstream stream(entry.path());
-    std::string title;
-    std::getline(stream, title);
+    const std::string text = core::read_whole_file(entry.path()).value_or("");
+    const std::string title = text.substr(0, text.find('\n'));
     found.push_back({entry.path().stem(), entry.path(),
                      title.substr(std::min(title.size(), title.find_first_not_of("# ")))});
   }

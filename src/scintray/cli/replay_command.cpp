@@ -1,14 +1,13 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <array>
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <string_view>
 
 #include "scintray/cli/json_answer.hpp"
 #include "scintray/cli/progress.hpp"
+#include "scintray/core/input_file.hpp"
 #include "scintray/results/results.hpp"
 #include "scintray/simulation/photon_paths.hpp"
 #include "scintray/simulation/simulation.hpp"
@@ -27,9 +26,7 @@ struct ReplayOptions {
 /// True for a file that begins as HDF5 files do.
 bool is_hdf5(const std::filesystem::path& path) {
   constexpr std::string_view kSignature = "\x89HDF\r\n\x1a\n";
-  std::array<char, kSignature.size()> begin{};
-  std::ifstream(path, std::ios::binary).read(begin.data(), begin.size());
-  return std::string_view(begin.data(), begin.size()) == kSignature;
+  return core::read_beginning(path, kSignature.size()) == kSignature;
 }
 
 /// The scene of a scene file or of a results file, which also holds the seed of its run.

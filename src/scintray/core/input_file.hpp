@@ -1,6 +1,7 @@
 #pragma once
-/// Whole files in memory.
+/// Files in memory: all that is not read as a stream, or by a library, is read by these.
 
+#include <cstddef>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -13,6 +14,10 @@ namespace scintray::core {
 /// All bytes of a regular file; empty (nullopt) for a folder, a pipe or a device, and when it cannot be
 /// opened or read. It becomes part of the thread's InputRecord.
 [[nodiscard]] std::optional<std::string> read_whole_file(const std::filesystem::path& path);
+
+/// The first bytes of such a file, `most` of them or all: what its kind is known by. It does not become part
+/// of the record.
+[[nodiscard]] std::optional<std::string> read_beginning(const std::filesystem::path& path, std::size_t most);
 
 /// A file that was read: its name without its folder, and the SHA-256 of its content.
 struct InputFile {

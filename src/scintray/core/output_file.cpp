@@ -7,12 +7,12 @@
 #include <cctype>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "scintray/core/error.hpp"
+#include "scintray/core/input_file.hpp"
 #include "scintray/core/zlib_stream.hpp"
 
 namespace scintray::core {
@@ -73,10 +73,7 @@ void require_replaceable(const std::filesystem::path& path, std::string_view con
   if (std::filesystem::is_directory(status)) refuse("this is a folder");
   if (!std::filesystem::is_regular_file(status)) refuse("this is a device, a pipe or a socket");
   constexpr std::size_t kHead = 1 << 16;
-  std::string head(kHead, '\0');
-  std::ifstream file(path, std::ios::binary);
-  file.read(head.data(), static_cast<std::streamsize>(head.size()));
-  head.resize(static_cast<std::size_t>(file.gcount()));
+  const std::string head = read_beginning(path, kHead).value_or("");
   if (head.empty()) return;
   const char *there = kind_of(head), *to_be = kind_of(content);
   if (there == to_be || (there != nullptr && to_be != nullptr && std::string_view(there) == to_be)) return;

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <fstream>
 
+#include "scintray/core/input_file.hpp"
 #include "scintray/simulation/detail/range_stream.hpp"
 #include "scintray/simulation/range_file.hpp"
 
@@ -33,14 +34,11 @@ std::uint64_t checked_size(const std::filesystem::path& path) {
   if (::access(path.c_str(), R_OK) != 0)
     throw core::SystemError(path.string() + ": cannot read: " + std::strerror(errno));
   const std::uint64_t size = std::filesystem::file_size(path, error);
-  std::ifstream file(path, std::ios::binary);
-  std::string magic(detail::kMagic.size(), '\0'), version(sizeof(std::uint32_t), '\0');
-  file.read(magic.data(), static_cast<std::streamsize>(magic.size()));
-  file.read(version.data(), static_cast<std::streamsize>(version.size()));
-  if (!file || magic != detail::kMagic)
-    throw wrong("this is not a shard or checkpoint of a run", "name files that `scintray run --shard` wrote");
   std::uint32_t layout = 0;
-  Decoder(version).plain(layout);
+  const std::string head = core::read_beginning(path, detail::kMagic.size() + sizeof layout).value_or("");
+  if (head.size() < detail::kMagic.size() + sizeof layout || !head.starts_with(detail::kMagic))
+    throw wrong("this is not a shard or checkpoint of a run", "name files that `scintray run --shard` wrote");
+  Decoder(std::string_view(head).substr(detail::kMagic.size())).plain(layout);
   if (layout != detail::kRangesVersion)
     throw wrong("this file of block ranges has layout " + std::to_string(layout) +
                     ", and this program reads " + std::to_string(detail::kRangesVersion),
