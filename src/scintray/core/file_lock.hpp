@@ -13,7 +13,7 @@ class FileLock {
  public:
   /// The lock; nothing while another holds it. Throws SystemError when there can be none: in a folder without
   /// permission to write, or on a file system without locks (flock(2)).
-  static std::optional<FileLock> try_take(const std::filesystem::path& file);
+  [[nodiscard]] static std::optional<FileLock> try_take(const std::filesystem::path& file);
 
   FileLock(FileLock&& from) noexcept;
   FileLock& operator=(FileLock&&) = delete;
@@ -32,6 +32,6 @@ class FileLock {
 /// removed.
 /// @return the lock; nothing on a file system without locks
 /// @throws InputError when another process holds it
-std::optional<FileLock> claim_output(const std::filesystem::path& path);
+[[nodiscard]] std::optional<FileLock> claim_output(const std::filesystem::path& path);
 
 }  // namespace scintray::core

@@ -70,7 +70,7 @@ class TableCache {
   /// The kept table; null when there is none, or it is damaged.
   std::shared_ptr<const optics::SurfaceTable> find(const CacheEntry& entry);
   /// The right to build a table, after waiting for it; nothing where the folder has no locks.
-  std::optional<core::FileLock> lock(const CacheEntry& entry);
+  [[nodiscard]] std::optional<core::FileLock> lock(const CacheEntry& entry);
   void keep(const CacheEntry& entry, const optics::SurfaceTable& table);
   /// Gives a warning, once for each kind; without a kind, once for each text.
   void warn(const std::string& warning, const std::string& kind = {});
@@ -92,6 +92,6 @@ struct CachedTable {
 
 /// The description in a file of the cache; nothing for a file that cannot be read, is damaged or is of an
 /// earlier ScintRay.
-std::optional<CachedTable> describe_cached(const std::filesystem::path& file);
+[[nodiscard]] std::optional<CachedTable> describe_cached(const std::filesystem::path& file);
 
 }  // namespace scintray::materials
