@@ -13,6 +13,7 @@
 #include "scintray/cli/error_kinds.hpp"
 #include "scintray/cli/exit_codes.hpp"
 #include "scintray/config/toml_reader.hpp"
+#include "scintray/optics/table.hpp"
 #include "scintray/report/text/result_json.hpp"
 #include "support/shared.hpp"
 #include "support/words.hpp"
@@ -175,6 +176,13 @@ TEST_CASE("with --json standard output is one JSON value, and the text is on sta
                                   folder));
   CHECK(table["slices"].size() == 1);
   CHECK(json::parse(standard_output("table show t.h5 --json", folder)) == table);
+  const optics::SurfaceTable read = optics::read_table(folder / "t.h5");
+  optics::TableProvenance provenance = read.provenance();
+  CHECK(provenance.unclassified == 0);
+  provenance.unclassified = 7;  // no builder makes such a table
+  optics::write_table(folder / "u.h5", optics::SurfaceTable(read.slices(), read.azimuth_kind(), provenance));
+  CHECK(json::parse(standard_output("table show u.h5 --json", folder))["unclassified"] == 7);
+  CHECK(contains(standard_output("table show u.h5", folder), "7 unclassified"));
   const json readings =
       json::parse(standard_output("goniometer polished --angle '20 deg' --rays 1000 --json", folder));
   CHECK(readings["readings"][0]["rays"] == 1000);

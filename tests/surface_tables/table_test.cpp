@@ -45,6 +45,8 @@ SurfaceTable sample_table() {
   provenance.preparation = "none";
   provenance.tiling = "periodic";
   provenance.seed = 0xFFFFFFFFFFFFFFFFULL;
+  provenance.unclassified = 7;
+  provenance.cut = 2;
   provenance.version = "test";
   return SurfaceTable({1.8, 1.0}, {node(0, 0.1), node(30, 0.4), node(33, 0.9), node(90, 1.0)},
                       {node(0, 0.2), node(90, 0.6)}, provenance);
@@ -176,6 +178,8 @@ TEST_CASE("a table is read back from its file unchanged") {
   CHECK(read.index_pair().inside == 1.8);
   CHECK(read.provenance().seed == table.provenance().seed);
   CHECK(read.provenance().map == "made up");
+  CHECK(read.provenance().unclassified == 7);
+  CHECK(read.provenance().cut == 2);
   for (const Side side : {Side::inside, Side::outside}) {
     REQUIRE(read.nodes(side).size() == table.nodes(side).size());
     for (std::size_t k = 0; k < read.nodes(side).size(); ++k) {

@@ -85,6 +85,31 @@ TableSettings quick() {
   return settings;
 }
 
+/// Absorbs no light and changes no direction, but states the wrong side for a share of it.
+class WrongSide : public MicrosurfaceModel {
+ public:
+  explicit WrongSide(double share) : share_(share) {}
+  SurfaceOutcome scatter(Ray&, Side side, const IndexPair&, SurfaceInteraction& interaction) const override {
+    return outcome_on(interaction.rng.uniform() < share_ ? side : other(side));
+  }
+
+ private:
+  double share_;
+};
+
+/// The unclassified rays by the error of a table of such a surface; 0 where the table is made.
+double unclassified_rays(double share, const TableSettings& settings) {
+  Surface surface;
+  surface.microsurface = WrongSide(share);
+  try {
+    const SurfaceTable table = build_stack_table(surface, {{420.0, {1.5, 1.5}}}, settings);
+    CHECK(table.provenance().unclassified == 0);
+    return 0.0;
+  } catch (const InternalError& error) {
+    return std::stod(error.what());  // the message begins with the number
+  }
+}
+
 }  // namespace
 
 TEST_CASE("The table of a whole stack agrees with the stack: reflected, absorbed, directions") {
@@ -291,4 +316,20 @@ TEST_CASE("A table of many slices is the same after a file") {
   std::vector<TableSlice> shuffled = table.slices();
   std::swap(shuffled[1], shuffled[4]);
   CHECK_THROWS_AS(SurfaceTable(shuffled, AzimuthKind::directional, {}), InputError);
+}
+
+TEST_CASE("Rays that leave away from their medium are counted, and no table is made of them") {
+  TableSettings settings = quick();
+  settings.incidence_step_rad = 30.0 * kDegree;
+  settings.rays = 500;
+  settings.refine = false;
+  settings.target_error = 0.0;
+  constexpr double kNodes = 2 * 4, kAzimuths = 40;
+  const double rays = kNodes * kAzimuths * 500.0;
+  CHECK(unclassified_rays(0.0, settings) == 0.0);
+  const double expected = 0.01 * rays;
+  CHECK(std::abs(unclassified_rays(0.01, settings) - expected) < kSigmas * std::sqrt(expected));
+  settings.reciprocal = true;  // whose kernel is traced with rays of its own
+  CHECK(unclassified_rays(0.0, settings) == 0.0);
+  CHECK(unclassified_rays(0.01, settings) > expected + kSigmas * std::sqrt(expected));
 }
