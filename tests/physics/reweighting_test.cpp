@@ -3,6 +3,8 @@
 #include "scintray/simulation/reweight.hpp"
 #include "scintray/simulation/simulation.hpp"
 
+#include <cmath>
+
 #include "physics/traced.hpp"
 #include "scintray/results/results.hpp"
 #include "support/shared.hpp"
@@ -155,6 +157,58 @@ TEST_CASE("Law: a table with a reflector behind it, reweighted, is the one retra
 
 TEST_CASE("Law: a mixture whose parts share a reflector, reweighted, is the one retraced") {
   check_retraced({kMixture, kPhotons}, {100.0, 0.9}, {{100.0, 0.95}, {60.0, 0.8}}, "film", 9400);
+}
+
+// Light of a point in a medium that ends at a sensor of its own index and at walls that absorb: the share that
+// reaches the plane of the sensor, 8 absorption lengths away, is E_2(8) / 2 = 1.7e-5, as its walls are too far
+// away to matter (the integral over the angles to the normal of half exp(-8 / cosine)).
+TEST_CASE("Law: rare light of a run with four times the absorption length, by weight, is the exponential integral") {
+  const double tau = 8.0;
+  const double exact = 0.5 * (std::exp(-tau) + tau * std::expint(-tau));
+  const auto output = scratch_folder("reweighting_rare") / "run.h5";
+  SimulationOptions options;
+  options.surface_hooks.cache.clear();
+  ResultsFile results(output);
+  const std::string text = R"(
+ambient = "vacuum"
+[[part]]
+name = "medium"
+box = ["400 mm", "400 mm", "100 mm"]
+medium = "clouded"
+surface = "black"
+[[part.face]]
+name = "exit"
+select = { normal = [0, 0, -1] }
+surface = "flat"
+[[part]]
+name = "detector"
+box = ["400 mm", "400 mm", "1 mm"]
+place = { touch = "medium", side = "-z" }
+medium = "n15"
+sensor = "perfect"
+[media.clouded]
+index = { n = 1.5 }
+absorption = { length = "40 mm" }
+scattering = { none = true }
+[surfaces.black]
+model = "painted"
+reflectance = 0.0
+specular_share = 0.0
+[source]
+type = "photons"
+position = ["0 mm", "0 mm", "80 mm"]
+wavelength = "420 nm"
+photons = 400_000
+[run]
+photon_history = true
+seed = 9700
+)";
+  Simulation(SceneFile::from_text(text + kDatabase, source_file("test.toml").string()), options).run_all(results);
+  const ReweightedPoint point = reweight(output, {{absorption_length, "clouded", false, {10.0}}}).at(0);
+  CHECK(point.light.valid);
+  check_law("exponential integral", point.light.detected_fraction, exact);
+  // Seven photons of 400,000 would be detected without weights.
+  CHECK(point.light.detected_fraction.error < 0.1 * std::sqrt(exact / 400e3));
 }
 
 TEST_CASE("Law: an absorption against wavelength, times two, is the one retraced") {

@@ -427,6 +427,56 @@ TEST_CASE("Polished convex bodies of planes and quadrics are traced in lanes, ot
                               "6 mm")) == transport::LaneKind::none);
 }
 
+TEST_CASE("Photons in parts of one shape are propagated together, whichever part they are in") {
+  if (transport::lane_widths().back() == 1) return;
+  // Polished crystals in vacuum, each by itself; photons start in all of them in turn.
+  const auto mean_group = [](int crystals) {
+    const std::string count = "[" + std::to_string(crystals) + ", 1]";
+    const auto point = ready(scene_spec(R"(
+ambient = "vacuum"
+[[array]]
+name = "crystal"
+count = )" + count + R"(
+pitch = "5 mm"
+[array.element]
+box = ["2 mm", "2 mm", "4 mm"]
+medium = "LSO_roncali2013"
+surface = "polished"
+[source]
+type = "photons"
+region = { part = "crystal[0,0]" }
+wavelength = "420 nm"
+photons = 4000
+)"));
+    const scene::Scene& scene = point->scene();
+    const core::RegionId first = point->start(0, 0).region;
+    std::vector<core::RegionId> starts;
+    for (std::uint32_t i = 0; i < scene.regions.size(); ++i)
+      if (scene.regions[core::RegionId(i)].accelerator == scene.regions[first].accelerator)
+        starts.emplace_back(i);
+    REQUIRE(starts.size() == static_cast<std::size_t>(crystals));
+    const int width = transport::lane_widths().back();
+    const transport::LaneKinds kinds = transport::lane_kinds(scene, width);
+    REQUIRE(kinds[first] == transport::LaneKind::smooth);
+    transport::PropagationLimits limits;
+    limits.interactions = 1000;
+    transport::Batch batch(scene, limits, width, kinds);
+    const auto stream = [&](std::uint64_t i) { return photon_stream(RunSettings{}, i / 1000, i % 1000); };
+    const auto emit = [&](std::uint64_t i, core::Rng&) {
+      source::Photon photon = point->start(i / 1000, i % 1000);
+      photon.region = starts[i % starts.size()];
+      photon.position += scene.regions[photon.region].centre.vec() - scene.regions[first].centre.vec();
+      return photon;
+    };
+    batch.trace(4000, stream, emit);
+    REQUIRE(batch.counts().groups > 0);
+    return static_cast<double>(batch.counts().grouped) / static_cast<double>(batch.counts().groups);
+  };
+  const double one = mean_group(1);
+  CHECK(one > 50.0);
+  CHECK(mean_group(16) > 0.9 * one);  // a sixteenth, were each part by itself
+}
+
 TEST_CASE("Laws over a number type have the bits of those for one photon") {
   Rng rng(1, StreamKind::other, 0);
   const auto triple = [](const Vec3& v) { return Triple<double>{v.x(), v.y(), v.z()}; };

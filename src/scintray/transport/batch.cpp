@@ -198,6 +198,8 @@ void Batch::Tracing::propagate(const Waiting* first, const Waiting* last) {
   const LaneFaces& faces = faces_[first->accelerator];
   const LaneLimits limits{static_cast<double>(limits_.interactions), limits_.time_ns};
   const auto count = static_cast<std::size_t>(last - first);
+  counts_.grouped += count;
+  ++counts_.groups;
   if (work_.size() < count) work_.resize(count);
   for (std::size_t i = 0; i < count; ++i) set_work(first[i].traveller, faces, work_[i]);
   if (faces.has_quadrics())

@@ -36,6 +36,9 @@ struct TracedPhoton {
 struct BatchCounts {
   std::uint64_t segments = 0;
   std::uint64_t resolved = 0;  ///< ray queries resolved by the exact query
+  /// Photons propagated through smooth regions in lanes, and the groups in which they were: those in regions
+  /// of one shape at a time.
+  std::uint64_t grouped = 0, groups = 0;
 };
 
 /// Traces photons that need no record of their steps: the same photons, to the last bit, as step() does one

@@ -60,7 +60,7 @@ template <typename State>
       least_sin2 = critical_sin2(scene, medium, photon);
     }
     propagation.cosine = state.incidence(wall);
-    if (!(1.0 - propagation.cosine * propagation.cosine >= least_sin2)) break;
+    if (!totally_reflected(propagation.cosine, least_sin2)) break;
 
     state.reflect_at(wall, propagation.cosine);
     propagation.end = PropagationEnd::total;

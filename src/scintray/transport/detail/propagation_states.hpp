@@ -3,15 +3,18 @@
 
 #include "scintray/core/lanes.hpp"
 #include "scintray/scene/accelerator.hpp"
+#include "scintray/transport/detail/propagation_laws.hpp"
 #include "scintray/transport/step.hpp"
 
 namespace scintray::transport {
+
+static_assert(kTimePerLength_ns_per_mm == 1.0 / core::kSpeedOfLight_mm_per_ns);
 
 /// Straight propagation of the photon by a distance. Time advances with the group velocity.
 inline void advance(source::Photon& photon, double distance_mm) {
   photon.position += distance_mm * photon.ray.direction;
   photon.path_mm += distance_mm;
-  photon.time_ns += distance_mm * photon.optics.group_index * (1.0 / core::kSpeedOfLight_mm_per_ns);
+  photon.time_ns += time_along(distance_mm, photon.optics.group_index);
 }
 
 /// Sum of three vectors times the first three numbers of v; the fourth number of v is kept.
@@ -132,7 +135,7 @@ class EmbreePropagation {
         accelerator_(scene.accelerator(region)),
         rotated_(region.rotated),
         start_mm_(accelerator_.start_mm()),
-        rates_{1.0, photon.optics.group_index * (1.0 / core::kSpeedOfLight_mm_per_ns)},
+        rates_{1.0, photon.optics.group_index * kTimePerLength_ns_per_mm},
         centre_(region.centre, 1.0),
         position_(photon.position, 0.0),
         direction_(photon.ray.direction, 0.0),

@@ -3,6 +3,7 @@
 
 #include "scintray/transport/detail/lanes/lane_kernel.hpp"
 #include "scintray/transport/detail/lanes/lane_numbers.hpp"
+#include "scintray/transport/detail/propagation_laws.hpp"
 
 namespace scintray::transport {
 namespace {
@@ -76,7 +77,6 @@ class LanePropagation {
 
   /// Moves all lanes, until a photon ends in at least one of them.
   void pass() {
-    constexpr double kTimePerLength = 1.0 / 299.792458;  // core::kSpeedOfLight_mm_per_ns
     const Real zero(0.0), one(1.0), two(2.0);
     const Vector centre = centre_.load();
     const Real group = group_.load(), attenuation = attenuation_.load();
@@ -100,9 +100,9 @@ class LanePropagation {
       const LaneIncidence<Real> at = walls_.arrive(faces, ahead, direction, centre, there);
       const Vector normal = at.normal;
       const Real cosine = at.cosine;
-      const Mask total = one - cosine * cosine >= least_sin2;
+      const Mask total = totally_reflected(cosine, least_sin2);
       const Real there_path = path + nearest, there_depth = depth_left - depth,
-                 there_time = time + nearest * group * Real(kTimePerLength);
+                 there_time = time + time_along(nearest, group);
       // optics::reflect.
       const Vector reflected = direction - (two * cosine) * normal;
       const Vector reflected_polarisation = -core::mirrored(polarisation, normal);

@@ -11,6 +11,7 @@
 #include "scintray/optics/fresnel_laws.hpp"
 #include "scintray/transport/detail/lanes/lane_photons.hpp"
 #include "scintray/transport/detail/lanes/lane_planes.hpp"
+#include "scintray/transport/detail/propagation_laws.hpp"
 
 namespace scintray::transport {
 namespace {
@@ -161,7 +162,6 @@ class LanePasses : LanePhotons<Real, kDraws> {
 
   /// To the next plane, and through a total reflection there.
   void propagate(Now& now, const Mask& here) {
-    constexpr double kTimePerLength = 1.0 / 299.792458;  // core::kSpeedOfLight_mm_per_ns
     const Vector position = load(pool_.position), direction = now.light.direction;
     const LaneAhead<Real> ahead = nearest_plane(position - load(pool_.centre), direction);
     store(pool_.plane, select(here, ahead.plane, load(pool_.plane)));
@@ -173,7 +173,7 @@ class LanePasses : LanePhotons<Real, kDraws> {
     const Mask bulk = depth > depth_left, unclear = now.kind == Real(lane_state::kUnclear);
     const Mask moves = here & !(bulk | unclear);
     const Real path = load(pool_.path_mm), time = load(pool_.time_ns);
-    const Real there_time = time + distance * load(pool_.group_index) * Real(kTimePerLength);
+    const Real there_time = time + time_along(distance, load(pool_.group_index));
     store(pool_.position, select(moves, position + distance * direction, position));
     store(pool_.path_mm, select(moves, path + distance, path));
     store(pool_.time_ns, select(moves, there_time, time));
@@ -184,7 +184,7 @@ class LanePasses : LanePhotons<Real, kDraws> {
 
     const Real cosine = dot(direction, now.normal);
     store(pool_.cos_before, select(here, magnitude(cosine), load(pool_.cos_before)));
-    const Mask total = one - cosine * cosine >= now.least_sin2;
+    const Mask total = totally_reflected(cosine, now.least_sin2);
     now.light = select(moves & total, reflected(now.light, now.normal), now.light);
     const Mask within =
         (interactions < Real(pool_.most_interactions)) & (there_time <= Real(pool_.most_time_ns));
