@@ -14,6 +14,7 @@
 
 #include "measure.hpp"
 #include "pairing.hpp"
+#include "ray_comparison.hpp"
 #include "report_json.hpp"
 #include "report_text.hpp"
 #include "scintray/core/error.hpp"
@@ -31,7 +32,7 @@ struct Options {
   std::vector<std::string> scenes;
   std::filesystem::path json, baseline, against;
   MeasureSettings measure;
-  bool list = false, quick = false, no_profile = false, serve = false;
+  bool list = false, quick = false, no_profile = false, rays = false, serve = false;
 };
 
 void add_options(CLI::App& app, Options& options) {
@@ -65,6 +66,11 @@ void add_options(CLI::App& app, Options& options) {
                  "trace the same photons with another scintray_bench in turns, and print ratios only")
       ->type_name("BINARY")
       ->excludes(baseline);
+  CLI::Option* rays =
+      app.add_flag("--rays", options.rays, "compare ways to find where rays leave regions, and nothing else");
+  for (const char* other :
+       {"--list", "--scene", "--threads", "--lane-width", "--no-profile", "--json", "--baseline", "--against"})
+    rays->excludes(app.get_option(other));
   app.add_flag("--serve", options.serve, "answer requests on standard input, for --against")->group("");
 }
 
@@ -105,13 +111,18 @@ void attribute_all(Report& report, const std::vector<std::vector<std::uintptr_t>
     if (!samples[i].empty()) report.scenes[i].work = attribute(samples[i], places);
 }
 
-Report measure_all(const std::vector<BenchScene>& scenes, const MeasureSettings& settings) {
+/// A report of this program on this machine, without scenes.
+Report empty_report(const MeasureSettings& settings) {
   Report report;
   report.version = core::version();
   report.date = now_utc();
   report.machine = this_machine();
   report.seconds = settings.seconds;
   report.rounds = settings.rounds;
+  return report;
+}
+
+void measure_all(const std::vector<BenchScene>& scenes, const MeasureSettings& settings, Report& report) {
   References references(settings.lane_width);
   std::vector<std::vector<std::uintptr_t>> samples(scenes.size());
   for (std::size_t i = 0; i < scenes.size(); ++i) {
@@ -120,7 +131,6 @@ Report measure_all(const std::vector<BenchScene>& scenes, const MeasureSettings&
     report.scenes.push_back(measure(scenes[i], workload, references.of(scenes[i]), settings, samples[i]));
   }
   attribute_all(report, samples);
-  return report;
 }
 
 void print(const Report& report, const Options& options) {
@@ -144,13 +154,25 @@ void compare_programs(const std::vector<BenchScene>& scenes, const Options& opti
   if (!options.json.empty()) core::write_whole_file(options.json, json_of_pairs(options.against, pairs));
 }
 
+void compare_all_rays(const MeasureSettings& settings) {
+  const Report report = empty_report(settings);
+  std::vector<RayRegionFigures> figures;
+  for (const RayRegion& region : ray_regions()) {
+    std::cerr << region.name << '\n';
+    figures.push_back(compare_rays(region, settings.seconds, settings.rounds));
+  }
+  std::cout << text_of_machine(report) << '\n' << text_of_rays(figures);
+}
+
 void run(const Options& options) {
   if (options.serve) return serve(std::cin, std::cout);
+  if (options.rays) return compare_all_rays(options.measure);
   const std::vector<BenchScene> scenes = select_scenes(options.scenes);
   if (options.list) return list_scenes(scenes);
   if (!options.against.empty()) return compare_programs(scenes, options);
   if (!options.baseline.empty()) load_report(options.baseline);  // its errors come before the measurement
-  const Report report = measure_all(scenes, options.measure);
+  Report report = empty_report(options.measure);
+  measure_all(scenes, options.measure, report);
   print(report, options);
   if (!options.json.empty()) core::write_whole_file(options.json, json_of(report));
 }
