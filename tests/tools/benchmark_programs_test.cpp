@@ -2,11 +2,13 @@
 
 #include <doctest/doctest.h>
 
+#include <optional>
 #include <sstream>
 
 #include "child_program.hpp"
 #include "pairing.hpp"
 #include "scintray/core/error.hpp"
+#include "scintray/transport/lane_width.hpp"
 #include "server.hpp"
 #include "support/folders.hpp"
 
@@ -31,8 +33,8 @@ std::string bench_program() { return (test::build_folder() / "bin" / "scintray_b
 
 TEST_CASE("A server answers each request with a line, and goes on after an error") {
   const auto answers =
-      answers_to({trace_request("polished", 64, 1), trace_request("polishd", 64, 1), "nonsense",
-                  calibration_request("polished", 1e-6), trace_request("polished", 64, 2)});
+      answers_to({trace_request("polished", 64, {}), trace_request("polishd", 64, {}), "nonsense",
+                  calibration_request("polished", 1e-6), trace_request("polished", 64, {2, std::nullopt})});
   REQUIRE(answers.size() == 5);
   const Trace trace = trace_of_answer(answers[0]);
   CHECK(trace.photons == 64);
@@ -74,12 +76,12 @@ TEST_CASE(
     "Paired figures are the other's time over this one's: processor time of one thread, else elapsed time") {
   const Trace mine{.segments = 100, .wall_s = 2.0, .cpu_s = 1.0};
   Trace other{.segments = 100, .wall_s = 6.0, .cpu_s = 1.5};
-  CHECK(paired_figures("s", 1, {mine}, {other}).ratio.median == 1.5);
-  CHECK(paired_figures("s", 2, {mine}, {other}).ratio.median == 3.0);
-  CHECK(paired_figures("s", 1, {mine}, {other}).segments_per_s == 100.0);
-  CHECK(paired_figures("s", 1, {mine}, {other}).same_photons);
+  CHECK(paired_figures("s", {}, {mine}, {other}).ratio.median == 1.5);
+  CHECK(paired_figures("s", {2, std::nullopt}, {mine}, {other}).ratio.median == 3.0);
+  CHECK(paired_figures("s", {}, {mine}, {other}).segments_per_s == 100.0);
+  CHECK(paired_figures("s", {}, {mine}, {other}).same_photons);
   other.segments = 101;
-  CHECK_FALSE(paired_figures("s", 1, {mine}, {other}).same_photons);
+  CHECK_FALSE(paired_figures("s", {}, {mine}, {other}).same_photons);
 }
 
 TEST_CASE(
@@ -98,10 +100,26 @@ TEST_CASE(
   CHECK(text_of_pair(pairs[0]).find("\"missing\"") != std::string::npos);
   for (std::size_t i = 1; i < 3; ++i) {
     CHECK(pairs[i].scene == "polished");
-    CHECK(pairs[i].threads == static_cast<int>(i));
+    CHECK(pairs[i].turn.threads == static_cast<int>(i));
     CHECK(pairs[i].same_photons);
     CHECK(pairs[i].ratio.values.size() == 2);
   }
+}
+
+TEST_CASE("Programs are compared at each lane width that is asked for") {
+  MeasureSettings settings;
+  settings.seconds = 0.01;
+  settings.rounds = 1;
+  settings.lane_widths = transport::lane_widths();
+  const auto pairs = pair_programs(bench_program(), bench_program(), {scene_named("polished")}, settings,
+                                   [](const PairedFigures&) {});
+  REQUIRE(pairs.size() == settings.lane_widths.size() + 1);  // the first with two threads as well
+  CHECK(pairs[1].turn.threads == 2);
+  for (const PairedFigures& pair : pairs) {
+    CHECK(pair.turn.lane_width.has_value());
+    CHECK(pair.same_photons);
+  }
+  CHECK(pairs.back().turn.lane_width == settings.lane_widths.back());
 }
 
 TEST_CASE("A program beside this one reads and writes lines, and one that does not exist is an error") {

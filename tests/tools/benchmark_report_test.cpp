@@ -29,7 +29,12 @@ Report made_up_report(double segments_per_s) {
   two.events_per_s = about(20.0);
   SceneFigures full;
   full.name = "full";
-  full.runs = {one, two};
+  RunFigures lanes = one;
+  lanes.asked_lane_width = lanes.lane_width = 4;
+  lanes.segments_per_s = about(3.0 * segments_per_s);
+  lanes.lane_gain = about(3.0);
+  one.asked_lane_width = two.asked_lane_width = 1;
+  full.runs = {one, two, lanes};
   full.segments_per_photon = 10.0;
   full.raw_embree_rays_per_s = about(2e7);
   full.segments_per_raw_ray = about(0.5);
@@ -92,6 +97,8 @@ TEST_CASE("The JSON of a report has the documented keys") {
     CHECK_MESSAGE(run.contains(key), key);
   for (const char* key : {"median", "low", "high", "values"})
     CHECK_MESSAGE(run.at("segments_per_s").contains(key), key);
+  for (const char* key : {"asked_lane_width", "lane_gain"})
+    CHECK_MESSAGE(scene.at("runs").at(2).contains(key), key);
   CHECK(scene.at("work").at("by").get<std::string>() == "line");
   for (const auto& kind : kWorkKinds)
     CHECK_MESSAGE(scene.at("work").at("shares").contains(kind.word), kind.word);
@@ -99,6 +106,25 @@ TEST_CASE("The JSON of a report has the documented keys") {
   // A scene has no keys for what was not measured.
   CHECK_FALSE(node.at("scenes").at(1).contains("work"));
   CHECK_FALSE(node.at("scenes").at(1).at("runs").at(0).contains("speedup"));
+}
+
+TEST_CASE("Speed by lane width has columns of its own where several widths were asked for") {
+  Report report = made_up_report(1e6);
+  const std::string text = text_of_figures(report, nullptr);
+  CHECK(has(text, "1 l: Mseg/s"));
+  CHECK(has(text, "4 l: Mseg/s"));
+  CHECK(has(text, "4 l / 1 l"));
+  CHECK(has(text, "3.00 5%"));
+  report.scenes.front().runs.pop_back();
+  CHECK_FALSE(has(text_of_figures(report, nullptr), "1 l: Mseg/s"));
+}
+
+TEST_CASE("A note stands in the text and in the JSON of a report") {
+  Report report = made_up_report(1e6);
+  CHECK_FALSE(json::parse(json_of(report)).contains("note"));
+  report.note = "a shared machine";
+  CHECK(report_of_json(json_of(report), "report.json").note == report.note);
+  CHECK(has(text_of_machine(report), report.note));
 }
 
 TEST_CASE("A report read from its JSON is the one that was written") {

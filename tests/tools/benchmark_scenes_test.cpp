@@ -8,6 +8,7 @@
 #include "measure.hpp"
 #include "raw_embree.hpp"
 #include "scintray/core/error.hpp"
+#include "scintray/transport/lane_width.hpp"
 #include "workload.hpp"
 
 using namespace scintray;
@@ -90,6 +91,30 @@ TEST_CASE("An unknown benchmark scene is an error that names it and the nearest 
   CHECK_THROWS_AS(scene_named("polishd"), core::InputError);
 }
 
+TEST_CASE("A scene is measured at every lane width that is asked for, the first with more threads as well") {
+  MeasureSettings settings;
+  settings.seconds = 0.01;
+  settings.rounds = 1;
+  settings.lane_widths = transport::lane_widths();
+  settings.profile = false;
+  const BenchScene& scene = scene_named("polished");
+  const Workload workload(scene, settings.lane_widths.front());
+  std::vector<std::uintptr_t> samples;
+  const SceneFigures figures = measure(scene, workload, nullptr, settings, samples);
+  REQUIRE(figures.runs.size() == settings.lane_widths.size() + 1);
+  CHECK(figures.runs[1].threads == 2);
+  CHECK_FALSE(figures.runs[1].lane_gain.has_value());
+  for (std::size_t i = 1; i < settings.lane_widths.size(); ++i) {
+    const RunFigures& run = figures.runs[i + 1];
+    CHECK(run.threads == 1);
+    CHECK(run.lane_width == settings.lane_widths[i]);
+    CHECK(run.asked_lane_width == settings.lane_widths[i]);
+    REQUIRE(run.lane_gain.has_value());
+    CHECK(run.lane_gain->values[0] ==
+          doctest::Approx(run.segments_per_s.values[0] / figures.runs[0].segments_per_s.values[0]));
+  }
+}
+
 TEST_CASE("A scene is measured in rounds with every number of threads, a pair of values in each") {
   MeasureSettings settings;
   settings.seconds = 0.01;
@@ -106,6 +131,8 @@ TEST_CASE("A scene is measured in rounds with every number of threads, a pair of
     const RunFigures& run = figures.runs[i];
     CHECK(run.threads == static_cast<int>(i) + 1);
     CHECK(run.lane_width == workload.point().lane_width());
+    CHECK_FALSE(run.asked_lane_width.has_value());
+    CHECK_FALSE(run.lane_gain.has_value());
     CHECK(run.segments_per_s.values.size() == 3);
     CHECK(run.speedup.has_value() == (i > 0));
     CHECK(run.cpu_cost.has_value() == (i > 0));

@@ -11,9 +11,11 @@
 
 namespace scintray::bench {
 
-/// Speed of a scene with one number of threads.
+/// Speed of a scene with one number of threads and one lane width.
 struct RunFigures {
   int lane_width = 1;
+  std::optional<int>
+      asked_lane_width;  ///< by an option; lane_width is 1 in a scene that has nothing for lanes
   int threads = 1;
   /// Per second: of processor time for one thread, of elapsed time for more.
   Spread segments_per_s, photons_per_s;
@@ -23,6 +25,8 @@ struct RunFigures {
   std::optional<Spread>
       speedup;  ///< over one thread in the same round, both by elapsed time; not of one thread
   std::optional<Spread> cpu_cost;  ///< processor time a segment over that of one thread in the same round
+  /// Segments/s over those of the narrowest lane width asked for, in the same round, both on one thread.
+  std::optional<Spread> lane_gain;
 };
 
 /// Comparison with another scene whose one-threaded runs took turns with this one's.
@@ -41,7 +45,7 @@ struct SceneFigures {
   std::uint64_t events = 0;   ///< in each measurement, of an event source
   std::uint64_t lost = 0;     ///< photons without a fate, in all measurements
   double segments_per_photon = 0.0;
-  std::vector<RunFigures> runs;  ///< one thread first
+  std::vector<RunFigures> runs;  ///< in the order of turns_of()
   std::size_t recorded_rays = 0;
   std::optional<Spread> raw_embree_rays_per_s;  ///< on the recorded rays, one thread, processor time
   std::optional<Spread> segments_per_raw_ray;   ///< segments/s of one thread over that, in the same round
@@ -67,6 +71,7 @@ Machine this_machine();
 struct Report {
   std::string version;  ///< ScintRay's
   std::string date;     ///< of the start, UTC, "2026-01-31T12:00:00Z"
+  std::string note;     ///< by an option: what a reader of the figures should know
   Machine machine;
   double seconds = 0.0;  ///< timed tracing per scene, as requested
   int rounds = 0;        ///< at most

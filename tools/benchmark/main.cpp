@@ -31,9 +31,35 @@ using namespace scintray::bench;
 struct Options {
   std::vector<std::string> scenes;
   std::filesystem::path json, baseline, against;
+  std::vector<std::string> lane_widths;
+  std::string note;
   MeasureSettings measure;
   bool list = false, quick = false, no_profile = false, rays = false, serve = false;
 };
+
+constexpr const char* kAll = "all";
+
+std::vector<std::string> lane_width_words() {
+  std::vector<std::string> words{kAll};
+  for (const int width : transport::lane_widths()) words.push_back(std::to_string(width));
+  return words;
+}
+
+/// The widths that are asked for, each once; of all the default first.
+std::vector<int> lane_widths_of(const std::vector<std::string>& words) {
+  std::vector<int> asked;
+  const bool all = std::find(words.begin(), words.end(), kAll) != words.end();
+  if (all) {
+    asked = transport::lane_widths();
+    asked.insert(asked.begin(), transport::default_lane_width());
+  } else {
+    for (const std::string& word : words) asked.push_back(std::stoi(word));
+  }
+  std::vector<int> widths;
+  for (const int width : asked)
+    if (std::find(widths.begin(), widths.end(), width) == widths.end()) widths.push_back(width);
+  return widths;
+}
 
 void add_options(CLI::App& app, Options& options) {
   MeasureSettings& measure = options.measure;
@@ -46,10 +72,11 @@ void add_options(CLI::App& app, Options& options) {
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   app.add_option(
-         "--lane-width", measure.lane_width,
-         "photons propagated at once, where a scene allows it; by default 8 on processors that keep their "
-         "clock with it, else the widest up to 4")
-      ->check(CLI::IsMember(transport::lane_widths()));
+         "--lane-width", options.lane_widths,
+         "photons propagated at once, where a scene allows it, separated by commas, or all; by default 8 on "
+         "processors that keep their clock with it, else the widest up to 4")
+      ->delimiter(',')
+      ->check(CLI::IsMember(lane_width_words()));
   app.add_option("--seconds", measure.seconds, "timed tracing per scene, about")
       ->check(CLI::Range(0.01, 3600.0))
       ->capture_default_str();
@@ -59,6 +86,8 @@ void add_options(CLI::App& app, Options& options) {
   app.add_flag("--quick", options.quick, "three rounds in half a second per scene, no shares of time");
   app.add_flag("--no-profile", options.no_profile, "no shares of time by kind of work");
   app.add_option("--json", options.json, "write all figures to this file")->type_name("FILE");
+  app.add_option("--note", options.note, "a sentence for the report, and for the file of --json")
+      ->type_name("TEXT");
   CLI::Option* baseline =
       app.add_option("--baseline", options.baseline, "print ratios to the figures of such a file")
           ->type_name("FILE");
@@ -68,8 +97,8 @@ void add_options(CLI::App& app, Options& options) {
       ->excludes(baseline);
   CLI::Option* rays =
       app.add_flag("--rays", options.rays, "compare ways to find where rays leave regions, and nothing else");
-  for (const char* other :
-       {"--list", "--scene", "--threads", "--lane-width", "--no-profile", "--json", "--baseline", "--against"})
+  for (const char* other : {"--list", "--scene", "--threads", "--lane-width", "--no-profile", "--json",
+                            "--baseline", "--against"})
     rays->excludes(app.get_option(other));
   app.add_flag("--serve", options.serve, "answer requests on standard input, for --against")->group("");
 }
@@ -83,6 +112,7 @@ void list_scenes(const std::vector<BenchScene>& scenes) {
 /// Workloads of scenes that others are compared with, each built once and kept.
 class References {
  public:
+  /// @param lane_width  nothing: the default
   explicit References(std::optional<int> lane_width) : lane_width_(lane_width) {}
   const Workload* of(const BenchScene& scene) {
     if (scene.relative_to.empty()) return nullptr;
@@ -112,22 +142,24 @@ void attribute_all(Report& report, const std::vector<std::vector<std::uintptr_t>
 }
 
 /// A report of this program on this machine, without scenes.
-Report empty_report(const MeasureSettings& settings) {
+Report empty_report(const MeasureSettings& settings, const std::string& note) {
   Report report;
   report.version = core::version();
   report.date = now_utc();
   report.machine = this_machine();
   report.seconds = settings.seconds;
   report.rounds = settings.rounds;
+  report.note = note;
   return report;
 }
 
 void measure_all(const std::vector<BenchScene>& scenes, const MeasureSettings& settings, Report& report) {
-  References references(settings.lane_width);
+  const std::optional<int> lane_width = turns_of(settings).front().lane_width;
+  References references(lane_width);
   std::vector<std::vector<std::uintptr_t>> samples(scenes.size());
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     std::cerr << fmt::format("[{}/{}] {}\n", i + 1, scenes.size(), scenes[i].name);
-    const Workload workload(scenes[i], settings.lane_width);
+    const Workload workload(scenes[i], lane_width);
     report.scenes.push_back(measure(scenes[i], workload, references.of(scenes[i]), settings, samples[i]));
   }
   attribute_all(report, samples);
@@ -154,8 +186,8 @@ void compare_programs(const std::vector<BenchScene>& scenes, const Options& opti
   if (!options.json.empty()) core::write_whole_file(options.json, json_of_pairs(options.against, pairs));
 }
 
-void compare_all_rays(const MeasureSettings& settings) {
-  const Report report = empty_report(settings);
+void compare_all_rays(const MeasureSettings& settings, const std::string& note) {
+  const Report report = empty_report(settings, note);
   std::vector<RayRegionFigures> figures;
   for (const RayRegion& region : ray_regions()) {
     std::cerr << region.name << '\n';
@@ -166,12 +198,12 @@ void compare_all_rays(const MeasureSettings& settings) {
 
 void run(const Options& options) {
   if (options.serve) return serve(std::cin, std::cout);
-  if (options.rays) return compare_all_rays(options.measure);
+  if (options.rays) return compare_all_rays(options.measure, options.note);
   const std::vector<BenchScene> scenes = select_scenes(options.scenes);
   if (options.list) return list_scenes(scenes);
   if (!options.against.empty()) return compare_programs(scenes, options);
   if (!options.baseline.empty()) load_report(options.baseline);  // its errors come before the measurement
-  Report report = empty_report(options.measure);
+  Report report = empty_report(options.measure, options.note);
   measure_all(scenes, options.measure, report);
   print(report, options);
   if (!options.json.empty()) core::write_whole_file(options.json, json_of(report));
@@ -188,6 +220,7 @@ int main(int argc, char** argv) {
     options.measure.seconds = 0.5;
     options.measure.rounds = 3;
   }
+  options.measure.lane_widths = lane_widths_of(options.lane_widths);
   options.measure.profile = !options.quick && !options.no_profile;
   try {
     run(options);

@@ -40,18 +40,17 @@ Spread rate(const std::vector<Trace>& traces, int threads, std::uint64_t Trace::
   }));
 }
 
-/// The traces of the rounds with each number of threads, and what was measured beside them.
+/// The traces of the rounds with each number of threads and each lane width, and what was measured beside
+/// them.
 class Rounds {
  public:
   Rounds(const Workload& workload, const Workload* reference, const MeasureSettings& settings)
       : workload_(workload),
         reference_(reference),
         raw_(workload.point().scene(), record_rays(workload.point(), kMostRays)) {
-    threads_.push_back(1);
-    for (const int threads : settings.threads)
-      if (threads != 1) threads_.push_back(threads);
-    traces_.resize(threads_.size());
-    const double turns = static_cast<double>(threads_.size()) + (reference ? 1.0 : 0.0) + kEmbreeShare;
+    turns_ = turns_of(settings);
+    traces_.resize(turns_.size());
+    const double turns = static_cast<double>(turns_.size()) + (reference ? 1.0 : 0.0) + kEmbreeShare;
     const double turn_s = settings.seconds / (settings.rounds * turns);
     raw_s_ = kEmbreeShare * turn_s;
     piece_ = calibrate(workload, turn_s);
@@ -75,7 +74,7 @@ class Rounds {
   const Piece& piece() const { return piece_; }
 
   void add_to(SceneFigures& figures) const {
-    for (std::size_t i = 0; i < threads_.size(); ++i) figures.runs.push_back(figures_of(i));
+    for (std::size_t i = 0; i < turns_.size(); ++i) figures.runs.push_back(figures_of(i));
     const std::vector<Trace>& one = traces_.front();
     figures.photons = one.front().photons;
     figures.events = one.front().events;
@@ -95,26 +94,40 @@ class Rounds {
 
  private:
   void trace_each() {
-    for (std::size_t i = 0; i < threads_.size(); ++i)
-      traces_[i].push_back(workload_.trace(piece_.work, threads_[i]));
+    for (std::size_t i = 0; i < turns_.size(); ++i)
+      traces_[i].push_back(workload_.trace(piece_.work, turns_[i].threads, turns_[i].lane_width));
   }
 
   static std::vector<double> segment_speeds(const std::vector<Trace>& traces) {
     return values_of(traces, [](const Trace& trace) { return per_cpu_second(trace.segments, trace); });
   }
 
+  /// The turn on one thread with the narrowest lanes.
+  std::size_t narrowest_turn() const {
+    std::size_t narrowest = 0;
+    for (std::size_t i = 1; i < turns_.size(); ++i)
+      if (turns_[i].threads == 1 && turns_[i].lane_width < turns_[narrowest].lane_width) narrowest = i;
+    return narrowest;
+  }
+
   RunFigures figures_of(std::size_t number) const {
     const std::vector<Trace>&traces = traces_[number], &one = traces_.front();
-    const int threads = threads_[number];
+    const int threads = turns_[number].threads;
     RunFigures figures;
-    figures.lane_width = workload_.point().lane_width();
+    figures.lane_width = traces.front().lane_width;
+    figures.asked_lane_width = turns_[number].lane_width;
     figures.threads = threads;
     figures.segments_per_s = rate(traces, threads, &Trace::segments);
     figures.photons_per_s = rate(traces, threads, &Trace::photons);
     if (workload_.has_events()) figures.events_per_s = rate(traces, threads, &Trace::events);
     figures.processor_share = spread_of(
         values_of(traces, [&](const Trace& trace) { return trace.cpu_s / (trace.wall_s * threads); }));
-    if (threads == 1) return figures;
+    if (threads == 1) {
+      const std::size_t narrowest = narrowest_turn();
+      if (number != narrowest)
+        figures.lane_gain = paired_ratio(segment_speeds(traces), segment_speeds(traces_[narrowest]));
+      return figures;
+    }
     const auto wall = [](const Trace& trace) { return trace.wall_s; };
     const auto cpu = [](const Trace& trace) { return trace.cpu_s; };
     figures.speedup = paired_ratio(values_of(one, wall), values_of(traces, wall));
@@ -125,17 +138,27 @@ class Rounds {
   const Workload& workload_;
   const Workload* reference_;
   RawEmbree raw_;
-  std::vector<int> threads_;
+  std::vector<Turn> turns_;
   double raw_s_ = 0.0;
   Piece piece_;
   std::uint64_t reference_work_ = 0;
   int rounds_ = 0;
-  std::vector<std::vector<Trace>> traces_;  ///< by number of threads, then by round
+  std::vector<std::vector<Trace>> traces_;  ///< by turn, then by round
   std::vector<Trace> reference_traces_;
   std::vector<double> raw_speeds_;
 };
 
 }  // namespace
+
+std::vector<Turn> turns_of(const MeasureSettings& settings) {
+  const std::vector<int>& widths = settings.lane_widths;
+  const std::optional<int> first = widths.empty() ? std::nullopt : std::optional(widths.front());
+  std::vector<Turn> turns{{1, first}};
+  for (const int threads : settings.threads)
+    if (threads != 1) turns.push_back({threads, first});
+  for (std::size_t i = 1; i < widths.size(); ++i) turns.push_back({1, widths[i]});
+  return turns;
+}
 
 Piece calibrate(const Workload& workload, double seconds) {
   const std::uint64_t block = workload.block(), fewest = kFewestBlocks * block;

@@ -21,14 +21,6 @@ std::string ask(ChildProgram& program, const std::string& request) {
   return *answer;
 }
 
-/// The numbers of threads to be measured, one first.
-std::vector<int> thread_numbers(const MeasureSettings& settings) {
-  std::vector<int> numbers{1};
-  for (const int threads : settings.threads)
-    if (threads != 1) numbers.push_back(threads);
-  return numbers;
-}
-
 /// The two programs on one scene.
 class Pair {
  public:
@@ -38,24 +30,24 @@ class Pair {
   /// Work that takes this time; both programs have built the scene and are warm.
   std::uint64_t calibrate(double seconds) {
     const std::uint64_t work = work_of_answer(ask(mine_, calibration_request(scene_, seconds)));
-    trace(other_, work, 1);
+    trace(other_, work, {});
     return work;
   }
 
-  PairedFigures measure(std::uint64_t work, int threads, int rounds) {
+  PairedFigures measure(std::uint64_t work, const Turn& turn, int rounds) {
     std::vector<Trace> mine, others;
     for (int round = 0; round < rounds; ++round) {
       const bool mine_first = round % 2 == 0;
-      if (mine_first) mine.push_back(trace(mine_, work, threads));
-      others.push_back(trace(other_, work, threads));
-      if (!mine_first) mine.push_back(trace(mine_, work, threads));
+      if (mine_first) mine.push_back(trace(mine_, work, turn));
+      others.push_back(trace(other_, work, turn));
+      if (!mine_first) mine.push_back(trace(mine_, work, turn));
     }
-    return paired_figures(scene_, threads, mine, others);
+    return paired_figures(scene_, turn, mine, others);
   }
 
  private:
-  Trace trace(ChildProgram& program, std::uint64_t work, int threads) {
-    return trace_of_answer(ask(program, trace_request(scene_, work, threads)));
+  Trace trace(ChildProgram& program, std::uint64_t work, const Turn& turn) {
+    return trace_of_answer(ask(program, trace_request(scene_, work, turn)));
   }
 
   std::string scene_;
@@ -64,15 +56,15 @@ class Pair {
 
 }  // namespace
 
-PairedFigures paired_figures(const std::string& scene, int threads, const std::vector<Trace>& mine,
+PairedFigures paired_figures(const std::string& scene, const Turn& turn, const std::vector<Trace>& mine,
                              const std::vector<Trace>& others) {
   PairedFigures figures;
   figures.scene = scene;
-  figures.threads = threads;
+  figures.turn = turn;
   std::vector<double> my_s, other_s, speeds;
   for (std::size_t i = 0; i < mine.size(); ++i) {
-    my_s.push_back(threads == 1 ? mine[i].cpu_s : mine[i].wall_s);
-    other_s.push_back(threads == 1 ? others[i].cpu_s : others[i].wall_s);
+    my_s.push_back(turn.threads == 1 ? mine[i].cpu_s : mine[i].wall_s);
+    other_s.push_back(turn.threads == 1 ? others[i].cpu_s : others[i].wall_s);
     speeds.push_back(static_cast<double>(mine[i].segments) / my_s.back());
     figures.same_photons = figures.same_photons && mine[i].segments == others[i].segments;
   }
@@ -85,7 +77,7 @@ std::vector<PairedFigures> pair_programs(const std::string& self, const std::str
                                          const std::vector<BenchScene>& scenes,
                                          const MeasureSettings& settings,
                                          const std::function<void(const PairedFigures&)>& done) {
-  const std::vector<int> numbers = thread_numbers(settings);
+  const std::vector<Turn> turns = turns_of(settings);
   std::vector<PairedFigures> pairs;
   const auto add = [&](const PairedFigures& figures) {
     pairs.push_back(figures);
@@ -94,9 +86,9 @@ std::vector<PairedFigures> pair_programs(const std::string& self, const std::str
   for (const BenchScene& scene : scenes) {
     try {
       Pair pair(self, other, scene.name);
-      const double turn_s = settings.seconds / (2.0 * settings.rounds * static_cast<double>(numbers.size()));
+      const double turn_s = settings.seconds / (2.0 * settings.rounds * static_cast<double>(turns.size()));
       const std::uint64_t work = pair.calibrate(turn_s);
-      for (const int threads : numbers) add(pair.measure(work, threads, settings.rounds));
+      for (const Turn& turn : turns) add(pair.measure(work, turn, settings.rounds));
     } catch (const core::InputError& error) {
       PairedFigures figures;
       figures.scene = scene.name;
@@ -108,15 +100,16 @@ std::vector<PairedFigures> pair_programs(const std::string& self, const std::str
 }
 
 std::string pair_headings() {
-  return fmt::format("{:<18}  {:>7}  {:>10}  {:>12}  {:>16}\n", "scene", "threads", "Mseg/s", "this / other",
-                     "quartiles");
+  return fmt::format("{:<18}  {:>7}  {:>5}  {:>10}  {:>12}  {:>16}\n", "scene", "threads", "lanes", "Mseg/s",
+                     "this / other", "quartiles");
 }
 
 std::string text_of_pair(const PairedFigures& pair) {
   if (!pair.trouble.empty()) return fmt::format("{:<18}  not compared: {}\n", pair.scene, pair.trouble);
-  return fmt::format("{:<18}  {:>7}  {:>10.2f}  {:>12.3f}  {:>7.3f} to {:.3f}{}\n", pair.scene, pair.threads,
-                     pair.segments_per_s / 1e6, pair.ratio.median, pair.ratio.low, pair.ratio.high,
-                     pair.same_photons ? "" : "  (photons differ)");
+  const std::string lanes = pair.turn.lane_width ? std::to_string(*pair.turn.lane_width) : "-";
+  return fmt::format("{:<18}  {:>7}  {:>5}  {:>10.2f}  {:>12.3f}  {:>7.3f} to {:.3f}{}\n", pair.scene,
+                     pair.turn.threads, lanes, pair.segments_per_s / 1e6, pair.ratio.median, pair.ratio.low,
+                     pair.ratio.high, pair.same_photons ? "" : "  (photons differ)");
 }
 
 std::string json_of_pairs(const std::string& other, const std::vector<PairedFigures>& pairs) {
@@ -128,7 +121,7 @@ std::string json_of_pairs(const std::string& other, const std::vector<PairedFigu
       continue;
     }
     list.push_back({{"scene", pair.scene},
-                    {"threads", pair.threads},
+                    {"threads", pair.turn.threads},
                     {"segments_per_s", pair.segments_per_s},
                     {"same_photons", pair.same_photons},
                     {"ratio",
@@ -136,6 +129,7 @@ std::string json_of_pairs(const std::string& other, const std::vector<PairedFigu
                       {"low", pair.ratio.low},
                       {"high", pair.ratio.high},
                       {"values", pair.ratio.values}}}});
+    if (pair.turn.lane_width) list.back()["lane_width"] = *pair.turn.lane_width;
   }
   const json node = {{"format", "scintray benchmark pairs"},
                      {"format_version", 1},

@@ -9,10 +9,10 @@
 
 namespace scintray::bench {
 
-/// Comparison of two programs on one scene with one number of threads.
+/// Comparison of two programs on one scene with one number of threads and one lane width.
 struct PairedFigures {
   std::string scene;
-  int threads = 1;
+  Turn turn;
   /// Speed of this program over that of the other for the same photons: processor time for one thread,
   /// elapsed time for more.
   Spread ratio;
@@ -22,8 +22,8 @@ struct PairedFigures {
 };
 
 /// Compares this program with another one. Both are started anew for every scene, this one too, so that
-/// neither has an advantage; each round measures both with each number of threads, first one, then the other,
-/// in an order that alternates.
+/// neither has an advantage; each round measures both with each number of threads and each lane width, first
+/// one, then the other, in an order that alternates.
 /// @param self   path of this program
 /// @param other  path of the other
 /// @param done   receives the figures of each scene
@@ -34,7 +34,7 @@ std::vector<PairedFigures> pair_programs(const std::string& self, const std::str
                                          const std::function<void(const PairedFigures&)>& done);
 
 /// The figures of a pair from its traces, in the order of the rounds.
-PairedFigures paired_figures(const std::string& scene, int threads, const std::vector<Trace>& mine,
+PairedFigures paired_figures(const std::string& scene, const Turn& turn, const std::vector<Trace>& mine,
                              const std::vector<Trace>& others);
 
 /// A line of the table of pairs, and its headings.

@@ -77,6 +77,8 @@ static void to_json(json& node, const RunFigures& run) {
   put(node, "events_per_s", run.events_per_s);
   put(node, "speedup", run.speedup);
   put(node, "cpu_cost", run.cpu_cost);
+  put(node, "asked_lane_width", run.asked_lane_width);
+  put(node, "lane_gain", run.lane_gain);
 }
 
 static void from_json(const json& node, RunFigures& run) {
@@ -88,6 +90,8 @@ static void from_json(const json& node, RunFigures& run) {
   get(node, "events_per_s", run.events_per_s);
   get(node, "speedup", run.speedup);
   get(node, "cpu_cost", run.cpu_cost);
+  get(node, "asked_lane_width", run.asked_lane_width);
+  get(node, "lane_gain", run.lane_gain);
 }
 
 static void to_json(json& node, const SceneFigures& scene) {
@@ -145,10 +149,10 @@ static void from_json(const json& node, Machine& machine) {
 }
 
 std::string json_of(const Report& report) {
-  const json node = {{"format", kFormat},         {"format_version", kFormatVersion},
-                     {"version", report.version}, {"date", report.date},
-                     {"machine", report.machine}, {"seconds", report.seconds},
-                     {"rounds", report.rounds},   {"scenes", report.scenes}};
+  json node = {{"format", kFormat},       {"format_version", kFormatVersion}, {"version", report.version},
+               {"date", report.date},     {"machine", report.machine},        {"seconds", report.seconds},
+               {"rounds", report.rounds}, {"scenes", report.scenes}};
+  if (!report.note.empty()) node["note"] = report.note;
   return node.dump(1) + "\n";
 }
 
@@ -164,6 +168,7 @@ Report report_of_json(const std::string& text, const std::string& name) {
     Report report;
     node.at("version").get_to(report.version);
     node.at("date").get_to(report.date);
+    report.note = node.value("note", "");
     node.at("machine").get_to(report.machine);
     node.at("seconds").get_to(report.seconds);
     node.at("rounds").get_to(report.rounds);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <set>
 
 namespace scintray::bench {
 
@@ -16,10 +17,10 @@ struct Column {
   std::function<std::optional<Spread>(const SceneFigures&)> of;
 };
 
-/// A run of a scene with this number of threads.
-const RunFigures* run_of(const SceneFigures& scene, int threads) {
+/// The first run of a scene with this number of threads and, if given, of this lane width.
+const RunFigures* run_of(const SceneFigures& scene, int threads, std::optional<int> lane_width = {}) {
   for (const RunFigures& run : scene.runs)
-    if (run.threads == threads) return &run;
+    if (run.threads == threads && (!lane_width || run.asked_lane_width == lane_width)) return &run;
   return nullptr;
 }
 
@@ -37,6 +38,28 @@ auto of_optional(int threads, std::optional<Spread> RunFigures::*member) {
     const RunFigures* run = run_of(scene, threads);
     return run ? run->*member : std::nullopt;
   };
+}
+
+/// Speed by lane width, where several were asked for.
+std::vector<Column> lane_columns_of(const Report& report) {
+  std::set<int> widths;
+  for (const SceneFigures& scene : report.scenes)
+    for (const RunFigures& run : scene.runs)
+      if (run.asked_lane_width) widths.insert(*run.asked_lane_width);
+  std::vector<Column> columns;
+  if (widths.size() < 2) return columns;
+  for (const int width : widths) {
+    columns.push_back({fmt::format("{} l: Mseg/s", width), 1e6, [width](const SceneFigures& scene) {
+                         const RunFigures* run = run_of(scene, 1, width);
+                         return run ? std::optional(run->segments_per_s) : std::nullopt;
+                       }});
+    columns.push_back(
+        {fmt::format("{} l / {} l", width, *widths.begin()), 1.0, [width](const SceneFigures& scene) {
+           const RunFigures* run = run_of(scene, 1, width);
+           return run ? run->lane_gain : std::nullopt;
+         }});
+  }
+  return columns;
 }
 
 std::vector<Column> columns_of(const Report& report) {
@@ -58,6 +81,7 @@ std::vector<Column> columns_of(const Report& report) {
     columns.push_back(
         {fmt::format("{} t: CPU/seg", threads), 1.0, of_optional(threads, &RunFigures::cpu_cost)});
   }
+  for (Column& column : lane_columns_of(report)) columns.push_back(std::move(column));
   columns.push_back({"to one crystal", 1.0, [](const SceneFigures& s) {
                        return s.relative ? std::optional(s.relative->segments_per_s) : std::nullopt;
                      }});
@@ -157,12 +181,14 @@ std::string text_of_building(const Report& report) {
   std::vector<Row> rows;
   for (const SceneFigures& scene : report.scenes) {
     if (scene.runs.empty()) continue;
-    const RunFigures& last = scene.runs.back();
+    const RunFigures& widest =
+        *std::max_element(scene.runs.begin(), scene.runs.end(),
+                          [](const RunFigures& a, const RunFigures& b) { return a.threads < b.threads; });
     rows.push_back({scene.name, fmt::format("{}", scene.regions), fmt::format("{}", scene.triangles),
                     fmt::format("{:.2f}", scene.build_s), fmt::format("{:.0f}", scene.build_MB),
                     fmt::format("{:.1f}", scene.segments_per_photon), fmt::format("{}", scene.photons),
-                    fmt::format("{}", last.segments_per_s.values.size()),
-                    fmt::format("{:.0f}", 100.0 * last.processor_share.median)});
+                    fmt::format("{}", widest.segments_per_s.values.size()),
+                    fmt::format("{:.0f}", 100.0 * widest.processor_share.median)});
   }
   return "\n" +
          table({"scene", "regions", "triangles", "build s", "MB", "seg/photon", "photons", "rounds", "CPU %"},
@@ -182,9 +208,10 @@ std::string text_of_machine(const Report& report) {
   return fmt::format(
       "ScintRay {}, {}\n{}, {} cores, load average {:.2f}, {}\n{}, {}; Embree {}\n"
       "{:g} s of timed tracing per scene in up to {} rounds; medians, and half the distance between the "
-      "quartiles\n",
+      "quartiles\n{}",
       report.version, report.date, machine.cpu, machine.cores, machine.load_average, machine.system,
-      machine.compiler, machine.flags, machine.embree, report.seconds, report.rounds);
+      machine.compiler, machine.flags, machine.embree, report.seconds, report.rounds,
+      report.note.empty() ? "" : report.note + "\n");
 }
 
 std::string text_of_figures(const Report& report, const Report* baseline) {

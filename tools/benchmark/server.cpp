@@ -110,8 +110,10 @@ std::string calibration_request(const std::string& scene, double seconds) {
   return json{{"scene", scene}, {"seconds", seconds}}.dump();
 }
 
-std::string trace_request(const std::string& scene, std::uint64_t work, int threads) {
-  return json{{"scene", scene}, {"work", work}, {"threads", threads}}.dump();
+std::string trace_request(const std::string& scene, std::uint64_t work, const Turn& turn) {
+  json request{{"scene", scene}, {"work", work}, {"threads", turn.threads}};
+  if (turn.lane_width) request["lane_width"] = *turn.lane_width;
+  return request.dump();
 }
 
 std::uint64_t work_of_answer(const std::string& answer) { return parsed(answer).at("work"); }

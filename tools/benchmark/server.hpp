@@ -19,7 +19,7 @@
 #include <iosfwd>
 #include <string>
 
-#include "workload.hpp"
+#include "measure.hpp"
 
 namespace scintray::bench {
 
@@ -29,7 +29,7 @@ void serve(std::istream& requests, std::ostream& answers);
 /// Request to calibrate.
 std::string calibration_request(const std::string& scene, double seconds);
 /// Request to trace.
-std::string trace_request(const std::string& scene, std::uint64_t work, int threads);
+std::string trace_request(const std::string& scene, std::uint64_t work, const Turn& turn);
 
 /// Work of an answer to a calibration. @throws InputError with the error that was answered
 std::uint64_t work_of_answer(const std::string& answer);

@@ -73,9 +73,10 @@ Workload::Workload(const BenchScene& scene, std::optional<int> lane_width) {
   build_.megabytes = resident_megabytes() - before_MB;
 }
 
-Trace Workload::trace(std::uint64_t work, int threads) const {
+Trace Workload::trace(std::uint64_t work, int threads, std::optional<int> lane_width) const {
   scene_file::SceneSpec spec = point_->spec();
   spec.run.threads = threads;
+  if (lane_width) spec.run.lane_width = lane_width;
   if (spec.energy_source)
     spec.energy_source->events = work;
   else
@@ -97,6 +98,7 @@ Trace Workload::trace(std::uint64_t work, int threads) const {
   trace.photons = result.emitted;
   trace.events = result.energy.events;
   trace.lost = result.lost;
+  trace.lane_width = point.lane_width();
   return trace;
 }
 

@@ -18,6 +18,7 @@ struct Trace {
   std::uint64_t lost = 0;    ///< photons without a fate
   double wall_s = 0.0;
   double cpu_s = 0.0;  ///< processor time: of the calling thread for one thread, else of the process
+  int lane_width = 1;  ///< photons that a thread propagated at once
 };
 
 /// Resources that building a scene took.
@@ -34,9 +35,10 @@ class Workload {
   explicit Workload(const BenchScene& scene, std::optional<int> lane_width = {});
 
   /// Traces the first photons, or the first events of an event source, of the scene.
-  /// @param work     number of photons or events, at least 1
-  /// @param threads  at least 1
-  Trace trace(std::uint64_t work, int threads) const;
+  /// @param work        number of photons or events, at least 1
+  /// @param threads     at least 1
+  /// @param lane_width  of transport::lane_widths(); nothing: that of the scene as built
+  Trace trace(std::uint64_t work, int threads, std::optional<int> lane_width = {}) const;
 
   /// True when work counts events, not photons.
   bool has_events() const { return point_->source().has_energy(); }
