@@ -1,6 +1,7 @@
 """tools/limits: what a file of callgrind counts, and what follows for a factor; the scenes that other versions read."""
 
 import dataclasses
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -139,6 +140,17 @@ class Limits(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             for scene in version_scenes.ROWS:
                 self.assertNotIn('curved = "facets"', version_scenes.write(scene, folder, for_other=True).read_text())
+
+    def test_the_peak_of_a_program_is_its_own_and_its_errors_are_passed_on(self):
+        def started(code):
+            return subprocess.run([sys.executable, '-IS', '-c', version_scenes.PEAK_OF, sys.executable, '-c', code],
+                                  capture_output=True, text=True, check=False)
+        here = bytearray(300_000_000)  # of this process, which must not count
+        done = started('print("words"); bytearray(100_000_000)')
+        self.assertTrue(100_000 < int(done.stdout) * 1.024 < 200_000, done.stdout)
+        refused = started('raise SystemExit("no such scene")')
+        self.assertEqual((refused.returncode, refused.stderr), (1, 'no such scene\n'))
+        del here
 
 
 if __name__ == '__main__':

@@ -6,6 +6,7 @@ the scene."""
 import dataclasses
 import os
 import subprocess
+import sys
 from pathlib import Path
 
 SCENES = Path(__file__).resolve().parents[1] / "benchmark" / "scenes"
@@ -102,8 +103,28 @@ class Refused(Exception):
     """What a program said of a scene that it does not run."""
 
 
+@dataclasses.dataclass
+class Measured:
+    """What a run on one thread took."""
+
+    segments: int
+    seconds: float  # of tracing alone
+    peak_MB: float  # the most resident memory of the whole run, building and results included
+
+
+# A process counts the memory of the one that it was forked from, so that a small one starts the program.
+PEAK_OF = """
+import os, sys
+nowhere = (os.POSIX_SPAWN_OPEN, 1, os.devnull, os.O_WRONLY, 0)
+process = os.posix_spawnp(sys.argv[1], sys.argv[1:], os.environ, file_actions=[nowhere])
+_, status, usage = os.wait4(process, 0)
+print(usage.ru_maxrss)
+sys.exit(1 if status else 0)
+"""
+
+
 def run(program, tree, scene, size, folder):
-    """Segments of a run on one thread, and the seconds that their tracing took.
+    """What a run on one thread took.
 
     program  the command, as a list of words; tree: the repository whose materials it takes, empty for its own
     size     words that set the number of photons or events
@@ -113,11 +134,13 @@ def run(program, tree, scene, size, folder):
     output = Path(folder) / "out.h5"
     output.unlink(missing_ok=True)
     environment = {**os.environ, "SCINTRAY_DATA": str(tree)} if tree else None
-    done = subprocess.run([*program, "run", str(scene), "-o", str(output), "--threads", "1", "--no-report", "--quiet", *size],
+    words = ["run", str(scene), "-o", str(output), "--threads", "1", "--no-report", "--quiet", *size]
+    done = subprocess.run([sys.executable, "-IS", "-c", PEAK_OF, *program, *words],
                           capture_output=True, text=True, env=environment, check=False)
     if done.returncode != 0:
         raise Refused(" ".join(done.stderr.split())[:160])
+    peak_MB = int(done.stdout) * 1024 / 1e6
     with h5py.File(output) as file:
         points = file["points"].values()
-        return (sum(int(numpy.ravel(point["segments"])[0]) for point in points),
-                sum(float(numpy.ravel(point["wall_seconds"])[0]) for point in points))
+        return Measured(sum(int(numpy.ravel(point["segments"])[0]) for point in points),
+                        sum(float(numpy.ravel(point["wall_seconds"])[0]) for point in points), peak_MB)

@@ -42,10 +42,10 @@ def counted_before(options, scene, row, folder):
     path = version_scenes.write(scene, folder, for_other=True)
     for work in (row.work, 3 * row.work):
         output = Path(folder) / 'counts'
-        segments, _ = version_scenes.run([*bench_program.CALLGRIND, f'--callgrind-out-file={output}', str(options.before)],
-                                         options.before_tree, path, [unit, str(work)], folder)
+        ran = version_scenes.run([*bench_program.CALLGRIND, f'--callgrind-out-file={output}', str(options.before)],
+                                 options.before_tree, path, [unit, str(work)], folder)
         counted = callgrind_file.read(output).values()
-        totals.append((segments, sum(counts.get('Ir', 0) for counts in counted)))
+        totals.append((ran.segments, sum(counts.get('Ir', 0) for counts in counted)))
     (fewer, less), (segments, instructions) = totals
     return (instructions - less) / (segments - fewer)
 
@@ -56,9 +56,9 @@ def nanoseconds_before(options, scene, folder):
     runs = []
     for work in (int(size) // 8, int(size)):
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
-        segments, _ = version_scenes.run([str(options.before)], options.before_tree, path, [unit, str(work)], folder)
+        ran = version_scenes.run([str(options.before)], options.before_tree, path, [unit, str(work)], folder)
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
-        runs.append((segments, after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime))
+        runs.append((ran.segments, after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime))
     (fewer, less), (segments, seconds) = runs
     return 1e9 * (seconds - less) / (segments - fewer)
 
