@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <string>
 
+#include "scintray/cli/count_option.hpp"
 #include "scintray/cli/exit_codes.hpp"
 #include "scintray/core/version.hpp"
 #include "support/shared.hpp"
@@ -70,6 +71,23 @@ TEST_CASE("a count of zero is refused in words") {
   CHECK(answer.exit_code == cli::kBadUsage);
   test::check_contains(answer.output, {"--threads", "\"0\" is not a number above 0"});
   CHECK(answer.output.find("00000000") == std::string::npos);
+}
+
+TEST_CASE("a count may have underscores or an exponent, and is whole") {
+  const auto converted = [](std::string text) {
+    const std::string problem = cli::whole_count()(text);
+    return problem.empty() ? text : problem;
+  };
+  CHECK(converted("7") == "7");
+  CHECK(converted("400_000") == "400000");
+  CHECK(converted("4e5") == "400000");
+  CHECK(converted("1.5e3") == "1500");
+  CHECK(converted("1e15") == "1000000000000000");
+  for (const char* wrong : {"1.5", "0", "-3", "1e16", "1e", "_5", "5_", "1__0", "many"})
+    CHECK(converted(wrong).find('"') == 0);
+  const Answer answer = run_program("run scene.toml --photons 1.5");
+  CHECK(answer.exit_code == cli::kBadUsage);
+  test::check_contains(answer.output, {"--photons", "\"1.5\" is not a whole number"});
 }
 
 TEST_CASE(

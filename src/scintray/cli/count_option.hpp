@@ -3,6 +3,8 @@
 
 #include <CLI/CLI.hpp>
 #include <charconv>
+#include <cmath>
+#include <cstdint>
 #include <string>
 
 namespace scintray::cli {
@@ -21,6 +23,23 @@ inline CLI::Validator above_zero() {
     return value <= kMostCounted ? "" : "\"" + text + "\" is more than 1e15, which no run would end";
   };
   return {check, "ABOVE 0"};
+}
+
+/// Check that an option's value is a whole number above zero, and no more than kMostCounted. It may be
+/// written as in scene files and with an exponent: 400_000, 4e5.
+inline CLI::Validator whole_count() {
+  const auto convert = [](std::string& text) -> std::string {
+    std::string digits;
+    for (std::size_t i = 0; i < text.size(); ++i)
+      if (text[i] != '_' || i == 0 || i + 1 == text.size() || text[i - 1] == '_') digits += text[i];
+    if (std::string problem = above_zero()(digits); !problem.empty()) return problem;
+    double value = 0.0;
+    std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (value != std::floor(value)) return "\"" + text + "\" is not a whole number";
+    text = std::to_string(static_cast<std::uint64_t>(value));
+    return {};
+  };
+  return {convert, "COUNT"};
 }
 
 }  // namespace scintray::cli

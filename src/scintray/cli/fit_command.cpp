@@ -136,12 +136,12 @@ void add_fit_command(CLI::App& app) {
   command
       ->add_option("--photons", options->photons,
                    "photons, or rays on a surface, at each point of a curve, in place of the scene's")
-      ->check(above_zero());
+      ->transform(whole_count());
   command->add_option("--events", options->events, "events at each point, in place of the scene's")
-      ->check(above_zero());
+      ->transform(whole_count());
   command->add_option("--seed", options->seed, "seed, in place of the scene's");
   command->add_option("-t,--threads", options->threads, "number of threads (default: all cores)")
-      ->check(above_zero());
+      ->transform(whole_count());
   command->add_flag("-q,--quiet", options->quiet, "print the result, but not the steps of the search");
   add_resume_flags(*command, options->resume);
   add_json_flag(*command, options->json);

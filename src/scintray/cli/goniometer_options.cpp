@@ -17,7 +17,9 @@ void add_sample_options(CLI::App& app, SampleOptions& options, std::uint64_t ray
   app.add_option("--wavelength", options.wavelength, "Wavelength of the light")->capture_default_str();
   app.add_option("--scene", options.scene,
                  "Scene file, or file of definitions, whose own surfaces and media are used as well");
-  app.add_option("--rays", options.rays, "Rays at each angle")->check(above_zero())->capture_default_str();
+  app.add_option("--rays", options.rays, "Rays at each angle")
+      ->transform(whole_count())
+      ->capture_default_str();
   app.add_option("--seed", options.seed, "Seed of the random numbers")->capture_default_str();
 }
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <cmath>
 #include <iostream>
 #include <memory>
@@ -134,7 +135,9 @@ void build(const BuildOptions& options) {
     InterruptGuard::keeps_results(true);  // in the journal
     line.show("mapping", static_cast<double>(done), static_cast<double>(of), "cells");
   };
+  const auto start = std::chrono::steady_clock::now();
   const simulation::ResponseFile file = simulation::build_map(scene, map_options);
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
   line.clear();
   if (!options.quiet && !file.forward_because.empty())
     std::cout << "not traced backward: " << file.forward_because << "\n";
@@ -145,7 +148,10 @@ void build(const BuildOptions& options) {
   simulation::write_response(options.output, file);
   std::error_code ignored;
   std::filesystem::remove(map_options.journal->path, ignored);
-  if (!options.quiet) print_map(file.map);
+  if (!options.quiet) {
+    print_map(file.map);
+    std::cout << fmt::format("built in {:.3g} s\n", took.count());
+  }
   std::cout << "map      " << options.output.string() << "\n";
   answer.print([&] { return json_of_map(file.map); });
 }
@@ -202,17 +208,17 @@ void add_build(CLI::App& response) {
       "trace forward from the cells, or backward from the channels, which needs surfaces that pass "
       "light both ways alike; automatic: backward where that is so");
   command->add_option("--photons", options->photons, "photons from each cell, forward (default: 10000)")
-      ->check(above_zero());
+      ->transform(whole_count());
   command
       ->add_option("--channel-photons", options->channel_photons,
                    "photons from each channel, backward (default: 200000)")
-      ->check(above_zero());
+      ->transform(whole_count());
   command
       ->add_option("--delays", options->delays,
                    "limit of the delays kept of each cell and channel (default: 64)")
-      ->check(above_zero());
+      ->transform(whole_count());
   command->add_option("-t,--threads", options->threads, "number of threads (default: all cores)")
-      ->check(above_zero());
+      ->transform(whole_count());
   command->add_option("--seed", options->seed, "seed, in place of the scene's");
   command->add_flag("-q,--quiet", options->quiet, "print only the path of the map");
   add_resume_flags(*command, options->resume);
@@ -234,9 +240,10 @@ void add_run(CLI::App& response) {
       ->required();
   command->add_option("MAP", options->map, "the map (HDF5)")->required();
   command->add_option("-o,--output", options->output, "results file")->required();
-  command->add_option("--events", options->events, "events, in place of the scene's")->check(above_zero());
+  command->add_option("--events", options->events, "events, in place of the scene's")
+      ->transform(whole_count());
   command->add_option("-t,--threads", options->threads, "number of threads (default: all cores)")
-      ->check(above_zero());
+      ->transform(whole_count());
   command->add_option("--seed", options->seed, "seed, in place of the scene's");
   command->add_flag("--no-report", options->no_report, "do not write the HTML page");
   command->add_flag("-q,--quiet", options->quiet, "print only the path of the results");

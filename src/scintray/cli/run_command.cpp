@@ -253,12 +253,12 @@ void add_run_command(CLI::App& app) {
   command->add_option("SCENE", options->scenes, "scene files (TOML)")->required();
   command->add_option("-o,--output", options->output, "results file (default: SCENE's name with .h5, here)");
   command->add_option("-t,--threads", options->threads, "number of threads (default: all cores)")
-      ->check(above_zero());
+      ->transform(whole_count());
   command->add_option("--seed", options->seed, "seed, in place of the scene's");
   command->add_option("--photons", options->photons, "photons per point, in place of the scene's")
-      ->check(above_zero());
+      ->transform(whole_count());
   command->add_option("--events", options->events, "events per point, in place of the scene's")
-      ->check(above_zero());
+      ->transform(whole_count());
   command->add_flag("--quick", options->quick,
                     "take the scene's quick_events or quick_photons: fewer, for a test");
   command->add_option("--shard", options->shard_text,
