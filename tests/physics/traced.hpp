@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "physics/lane_widths.hpp"
 #include "scintray/scene/build_scene.hpp"
 #include "scintray/scene_file/read_scene.hpp"
 #include "scintray/simulation/simulation_point.hpp"
@@ -90,6 +91,7 @@ inline std::shared_ptr<const simulation::SimulationPoint> ready(scene_file::Scen
   return std::make_shared<const simulation::SimulationPoint>(std::move(spec), builder);
 }
 
+/// The result of a scene. Its first photons are also traced by every width of the lanes, and compared.
 inline Traced trace(const std::string& text, int threads = 0,
                     const scene_file::TallyVariables& variables = scene_file::TallyVariables::built_in()) {
   scene_file::SceneSpec spec = scene_spec(text, variables);
@@ -102,6 +104,7 @@ inline Traced trace(const std::string& text, int threads = 0,
   traced.result = traced.point->trace(hooks);
   CHECK(traced.result.lost == 0);
   CHECK(traced.result.complete);
+  check_same_in_all_widths(*traced.point);
   return traced;
 }
 
