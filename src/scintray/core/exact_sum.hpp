@@ -7,8 +7,8 @@
 namespace scintray::core {
 
 /// The exact sum of any number of doubles, as a fixed-point number of 256 bits: each addend counts in whole
-/// multiples of 2^-112 (1.9e-34), rounded towards zero, so that any double above 1.7e-18 counts in full. Sums
-/// of parts, merged in any order, are those of the whole to the last bit.
+/// multiples of 2^-112 (1.9e-34), rounded towards zero, so that any double from 2^-60 (8.7e-19) on counts in
+/// full. Sums of parts, merged in any order, are those of the whole to the last bit.
 ///
 /// An addend that is not finite, or not below 2^100 (1.3e30), makes the sum not a number for ever. Below it
 /// 2^43 addends cannot overflow.

@@ -17,8 +17,7 @@ enum class Container {
 
 /// Throws InputError when `path` exists and may not be replaced by a file that begins with `content`: what is
 /// no regular file (a folder, a device, a pipe), and a file of another kind, as HDF5, TOML, HTML, SVG, a
-/// height map
-/// (.gsf), glTF and all others, known by their first bytes. An empty file may become anything.
+/// height map (.gsf), glTF and all others, known by their first bytes. An empty file may become anything.
 void require_replaceable(const std::filesystem::path& path, std::string_view content);
 
 /// A file written as a stream to a temporary file beside the target; `commit` renames it. Without a commit

@@ -16,7 +16,7 @@ struct Estimate {
 };
 
 /// Fraction k/n with the binomial standard error sqrt(p(1-p)/n); when k is 0 or n the error is that
-/// of one count in n, so that it is never zero.
+/// of one count in n, so that it is never zero. Without trials (n = 0): 0 with the error 1.
 Estimate binomial_estimate(std::uint64_t k, std::uint64_t n);
 
 /// Sums that determine mean and variance; merging is exact up to rounding and is done in a fixed order so

@@ -42,7 +42,7 @@ constexpr std::size_t fate_index(Fate fate) {
 }
 /// The fate at an index, 0 to kFateCount - 1.
 constexpr Fate fate_at(int index) { return static_cast<Fate>(kFirstFate + index); }
-/// Name of a fate in results files: "detected", "unconverted", "absorbed_in_medium", ...
+/// Name of a fate in results files: that of the enumerator, but "unconverted" for not_detected.
 const char* fate_name(Fate fate);
 
 }  // namespace scintray::core

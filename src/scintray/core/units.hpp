@@ -33,7 +33,7 @@ std::vector<std::string> units_of(Dimension dimension);
 /// unit of another dimension; the hint lists what is accepted.
 double parse_quantity(std::string_view text, Dimension dimension);
 
-/// Value in the internal unit of a quantity in `unit`; throws InputError for a unit of another dimension.
+/// Value of one `unit` in the internal unit; throws InputError for a unit of another dimension.
 double unit_factor(std::string_view unit, Dimension dimension);
 
 /// hc, for photon energy E (eV) = kHc_eV_nm / wavelength (nm). Exact SI values (CODATA 2018).

@@ -15,7 +15,7 @@ using Vec3 = Eigen::Vector3d;
 
 inline constexpr double kPi = std::numbers::pi;
 inline constexpr double kTwoPi = 2.0 * std::numbers::pi;
-inline constexpr double kDegree = std::numbers::pi / 180.0;
+inline constexpr double kDegree = std::numbers::pi / 180.0;  ///< rad
 
 /// Speed of light in vacuum, mm/ns (exact, SI definition of the metre).
 inline constexpr double kSpeedOfLight_mm_per_ns = 299.792458;
