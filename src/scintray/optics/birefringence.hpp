@@ -55,8 +55,8 @@ struct BirefringentOptics {
   BirefringentOptics in_frame(const core::Frame& frame) const;
   /// Sets `dipole_emission`, the integral over all waves of emission (emit_isotropic) times the squares of
   /// the components of their fields, within 1e-8 where the indices are in a ratio of up to 1.7 (3e-3 for a
-  /// ratio of 4). For a uniaxial crystal a dipole along the optic axis
-  /// radiates 4 n_o^2 / (n_e^2 + 3 n_o^2) times as much as one across it, to which the integral comes.
+  /// ratio of 4). For a uniaxial crystal the integral is that of a closed form: a dipole along the optic axis
+  /// radiates 4 n_o^2 / (n_e^2 + 3 n_o^2) times as much as one across it.
   void find_dipole_emission();
 };
 static_assert(std::is_trivially_copyable_v<BirefringentOptics>);
@@ -80,8 +80,8 @@ ModeOptics mode_of(const BirefringentOptics& medium, const Ray& ray);
 /// True when the ray's polarisation is one of the two of its direction.
 bool has_mode(const BirefringentOptics& medium, const Ray& ray);
 
-/// Gives a ray whose polarisation is neither of the two of its direction one of them, by chance with the
-/// shares of its field; without polarisation with equal shares. A ray that has a mode keeps it.
+/// Draws one of the two modes of the direction for a ray that has neither, with the shares of its field as
+/// probabilities; for an unpolarised ray with equal ones. A ray that has a mode keeps it.
 void take_mode(const BirefringentOptics& medium, Ray& ray, core::Rng& rng);
 
 /// Draws direction and polarisation of light from dipoles of random orientation. Per solid angle of wave

@@ -73,7 +73,7 @@ struct MetalIndex {
 };
 
 /// A face of metal, which transmits nothing: the reflectance follows from the complex index of the metal and
-/// the index of the medium of incidence, or is 1 without an index. `facets` gives its roughness: widths
+/// the index of the medium of incidence, or is 1 without an index. `facets` holds its roughness, widths
 /// and lobes; the lobe is chosen once, and light that a facet reflects into the surface
 /// interacts with another facet (the loop of Geant4's boundary process).
 class MetalSurface : public MicrosurfaceModel {

@@ -3,10 +3,9 @@
 ///
 /// The field of a ray, up to a common phase, is a cos(chi) + i b sin(chi), with the unit polarisation a, b =
 /// k x a for the direction k, and the ellipticity angle chi; fields vary as exp(-i omega t). chi = 0 is
-/// linear,
-/// +-45 deg circular light. Reflection and refraction multiply the components across (s) and in (p) the plane
-/// of incidence by complex amplitudes (M. Born and E. Wolf, Principles of Optics, 7th ed., sections 1.4.2,
-/// 1.5.2 and 1.5.4; cited from memory, not opened).
+/// linear, +-45 deg circular light. Reflection and refraction multiply the components across (s) and in (p)
+/// the plane of incidence by complex amplitudes (M. Born and E. Wolf, Principles of Optics, 7th ed., sections
+/// 1.4.2, 1.5.2 and 1.5.4; cited from memory, not opened).
 
 #include <complex>
 
@@ -45,7 +44,7 @@ StokesParameters stokes_of(const Ray& ray, const core::Vec3& s);
 [[gnu::noinline, gnu::cold]] bool interact_with_phase(Ray& ray, const core::Vec3& m, double n1, double n2,
                                                       core::Rng& rng);
 
-/// Total reflection amplitudes at an incidence-angle cosine beyond the critical angle, of unit size.
+/// Total reflection amplitudes at an incidence-angle cosine beyond the critical angle, of unit magnitude.
 FieldComponents total_reflection_amplitudes(double cos_i, double n1, double n2);
 
 }  // namespace scintray::optics

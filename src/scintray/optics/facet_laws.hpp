@@ -30,8 +30,8 @@ core::Triple<Real> facet_normal(const core::SineCosineOf<Real>& tilt, const core
   return (tilt.sine * azimuth.cosine) * across.x + (tilt.sine * azimuth.sine) * across.y + tilt.cosine * mean;
 }
 
-/// Largest cosine between the reversed direction of light and any facet normal: that of the incidence less
-/// the widest angle.
+/// Largest cosine between the reversed direction of light and any facet normal: that of the incidence angle
+/// less the widest facet angle.
 template <typename Real>
 Real greatest_facing(const Real& cos_incidence, const core::SineCosineOf<Real>& of_widest) {
   const Real c = core::least(core::greatest(cos_incidence, Real(0.0)), Real(1.0));
@@ -45,7 +45,7 @@ struct FacetNumbers {
   Real sigma_rad;
   Real widest_rad;              ///< of facets weighted by area: those beyond are drawn again
   Real sin_widest, cos_widest;  ///< at a quarter turn, 1 and -1: nothing is bounded
-  core::MaskOf<Real> by_area;   ///< facets are weighted by the area that the light sees
+  core::MaskOf<Real> by_area;   ///< facets are weighted by their projected area
 };
 
 /// An attempt to draw a facet.

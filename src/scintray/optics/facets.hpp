@@ -25,7 +25,7 @@ enum class SigmaAlphaDefinition {
 
 /// Probability with which light hits a facet.
 enum class FacetSampling {
-  projected_area,  ///< facets weighted by the area that the incoming light sees
+  projected_area,  ///< facets weighted by their area projected along the incoming light
   geant4,          ///< any facet turned towards the light, with equal weight
 };
 

@@ -50,8 +50,9 @@ struct Ray {
 static_assert(std::is_trivially_copyable_v<Ray>);
 
 /// Specular reflection at a facet with unit normal `m` (either orientation). The polarisation component along
-/// the normal is kept and the others change sign, as for total reflection without the phase lag between s and
-/// p, which one linear polarisation vector cannot carry.
+/// the normal is kept and the others change sign, as at a perfect conductor (r_s = -1, r_p = 1 in the
+/// convention of FresnelAmplitudesOf). Total reflection is treated alike: one linear polarisation vector
+/// cannot carry its phase lag between s and p.
 inline void reflect(Ray& ray, const core::Vec3& m) {
   ray.direction = core::mirror(ray.direction, m);
   ray.polarisation = -core::mirror(ray.polarisation, m);

@@ -52,8 +52,9 @@ struct LightRay {
 };
 
 /// Light after specular reflection at a facet with unit normal m. The polarisation component along the normal
-/// is kept and the others change sign, as for total reflection without the phase lag between s and p, which
-/// one linear polarisation vector cannot carry.
+/// is kept and the others change sign, as at a perfect conductor (r_s = -1, r_p = 1 in the convention of
+/// FresnelAmplitudesOf). Total reflection is treated alike: one linear polarisation vector cannot carry its
+/// phase lag between s and p.
 template <typename Real>
 LightRay<Real> reflected(const LightRay<Real>& light, const core::Triple<Real>& m) {
   return {core::mirrored(light.direction, m), -core::mirrored(light.polarisation, m)};

@@ -74,8 +74,8 @@ struct Medium {
   std::vector<ParticleLight> by_particle;  ///< of these kinds, in place of yield and relative yield
   core::Curve emission;                    ///< relative photon number per nm against wavelength (nm)
   std::vector<DecayComponent> decay;
-  double density_g_per_cm3 = 0.0;    ///< 0 when not given
-  Composition composition;           ///< empty when not given; requires the density
+  double density_g_per_cm3 = 0.0;    ///< 0: not available
+  Composition composition;           ///< empty: not available; requires the density
   bool empty_space = false;          ///< declared as empty space: gammas pass
   std::vector<std::string> sources;  ///< published sources, as cited in reports
 

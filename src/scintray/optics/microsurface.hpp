@@ -85,8 +85,8 @@ class MicrosurfaceModel {
   /// (Helmholtz reciprocity). A model for which this is not known is not reciprocal.
   virtual bool reciprocal() const { return false; }
 
-  /// True when the model is exact where a medium is birefringent. Of others light leaves into such a medium
-  /// with the ray that the model gives it, in one of the two modes of that ray (take_mode).
+  /// True when the model is exact where a medium is birefringent. For others, light that the model
+  /// scatters into such a medium takes one of the two modes of its direction there (take_mode).
   virtual bool birefringent() const { return false; }
 
   MicrosurfaceKind kind() const { return kind_; }

@@ -25,7 +25,7 @@ class ReciprocalKernel {
   static constexpr int kTurns = 36;
   static constexpr int kStates = 2 * kPolar;  ///< inside, then outside
 
-  /// Indices of the state and of the target of a direction; `sine2` in [0, 1], `turn` in [0, pi].
+  /// Indices of the state and of the target of a direction; `sine2` in [0, 1], `turn` in [0, pi] (rad).
   static int state(Side side, double sine2);
   static int target(int to_state, double turn);
 

@@ -15,8 +15,8 @@ namespace scintray::optics {
 ///
 /// The data of one interaction are contiguous: an interval between two nodes is one cache line, the edges of
 /// one quantile bin of neighbouring nodes are neighbours, and azimuths are 16 bit wide (steps of half a turn
-/// over 65535; angles of 2000 rays are known to about 1e-3 rad). A table of 41 nodes takes 0.2 MB for each
-/// side on which light leaves, which fits the private cache of a core.
+/// over 65535, over 32767 for signed ones; angles of 2000 rays are known to about 1e-3 rad). A table of 41
+/// nodes takes 0.2 MB for each side on which light leaves, which fits the private cache of a core.
 class TableSampler {
  public:
   /// @param nodes as checked by SurfaceTable
