@@ -20,7 +20,7 @@ struct Relief {
   std::shared_ptr<const optics::HeightField> field;
 };
 
-/// A table of a height field that is wanted.
+/// Request of a table of a height field.
 struct TableRequest {
   std::string surface;  ///< name of the surface, for progress and lists
   std::string media;    ///< names of the media on its sides, for lists

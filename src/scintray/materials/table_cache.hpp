@@ -60,7 +60,7 @@ class TableCache {
  public:
   explicit TableCache(const TableHooks& hooks);
 
-  /// The table of a key: from the folder, else built and kept. Where it cannot be kept, a warning is given.
+  /// The table of a key: from the folder, else built and kept. Where it cannot be kept, a warning is issued.
   /// @param build  makes the table; its exceptions are passed on
   /// @throws TableStopped when it was stopped while waiting
   std::shared_ptr<const optics::SurfaceTable> get(const CacheEntry& entry,
@@ -72,7 +72,7 @@ class TableCache {
   /// The right to build a table, after waiting for it; nothing where the folder has no locks.
   [[nodiscard]] std::optional<core::FileLock> lock(const CacheEntry& entry);
   void keep(const CacheEntry& entry, const optics::SurfaceTable& table);
-  /// Gives a warning, once for each kind; without a kind, once for each text.
+  /// Issues a warning, once for each kind; without a kind, once for each text.
   void warn(const std::string& warning, const std::string& kind = {});
 
   TableHooks hooks_;
