@@ -16,7 +16,7 @@ struct FaceGrid {
   std::size_t columns = 0, rows = 0;  ///< along x and y, two at least
   std::vector<double> factor;         ///< rows one after the other
 
-  double at(double x, double y) const;
+  double at(double x, double y) const;  ///< mm
 };
 
 /// Factor on a sensor's efficiency over its face, from the middle of the face.

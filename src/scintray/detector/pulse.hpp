@@ -80,12 +80,13 @@ class PulseShape {
 /// @param waveform  photoelectrons
 std::vector<float> digitize(std::span<const double> waveform, const ReadoutSpec& readout, core::Rng& rng);
 
-/// The samples in the gate of a readout, of a waveform of so many samples that starts `before` the event.
+/// The samples in the gate of a readout, of a waveform of so many samples that starts before_ns before the
+/// event. Its integral is not set.
 GateIntegral gate_of(const ReadoutSpec& readout, std::size_t samples);
 
 struct PulseMeasurement {
-  double charge = 0.0;            ///< sum over the gate times the period over the area of the pulse of 1
-  double amplitude = 0.0;         ///< largest sample
+  double charge = 0.0;            ///< photoelectrons: sum over the gate times the period over pulse_area_ns
+  double amplitude = 0.0;         ///< largest sample, photoelectrons
   std::optional<double> time_ns;  ///< nothing when no sample rises through the threshold in the window
 };
 
