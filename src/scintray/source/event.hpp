@@ -25,7 +25,7 @@ struct ParticleStep {
   double decay_ns = 0.0, rise_ns = 0.0;  ///< of the scintillation; decay 0: as of the medium
 };
 
-/// An energy deposit at one point, by one electron as far as sources know its electrons, or along a step.
+/// An energy deposit at one point, by one electron where the source resolves them, or along a step.
 struct Deposit {
   core::Vec3 position = core::Vec3::Zero();  ///< world, mm
   core::RegionId region = {};                ///< that contains the position
