@@ -63,7 +63,7 @@ struct Trim {
 };
 
 /// Boxes, of equal size, into which that around a face with many trims is divided. In each of them most trims
-/// have one sign all over, so that only the others are asked.
+/// have one sign all over, so that only the others are evaluated.
 struct TrimGrid {
   core::PlainVec3 low, per_mm;           ///< corner of the first box (mm), boxes per mm
   std::array<std::uint32_t, 3> count{};  ///< boxes by axis
@@ -72,7 +72,7 @@ struct TrimGrid {
 
 /// A box of a TrimGrid.
 struct TrimBox {
-  /// Trims to ask: a range of ExactBodies::asked_trims; kNoSurface: the face is not in this box.
+  /// Trims to evaluate: a range of ExactBodies::asked_trims; kNoSurface: the face is not in this box.
   std::uint32_t begin = 0, end = 0;
 };
 

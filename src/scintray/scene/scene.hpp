@@ -60,8 +60,8 @@ static_assert(std::is_trivially_copyable_v<optics::MediumOptics>);
 /// Optical properties of all media, tabulated at equal steps of wavelength, for use once per interaction.
 ///
 /// Between two entries every property is linear. All that transport computes of a medium comes from here, so
-/// that its parts and their sum agree to the last bit: curves asked beside it would differ from it near their
-/// own points.
+/// that its parts and their sum agree to the last bit: curves evaluated beside it would differ from it near
+/// their own points.
 struct SceneOptics {
   core::IdVector<core::MediumId, MediumRecord> media;  ///< as Scene::media
   std::vector<optics::MediumOptics> table;
@@ -272,7 +272,7 @@ struct Scene : SceneRecords {
       return normal(region, triangle);
     return region.direction_to_world(accelerator(region).normal_at(triangle, region.point_to_local(point)));
   }
-  /// The face of a part on an interface of its. One of the two faces is.
+  /// The face of a part on one of its interfaces: one of the two faces there.
   core::FaceId sensor_face(const Interface& interface, core::PartId part) const {
     const bool at_front = interface.front_face.has_value() && faces[interface.front_face].part == part;
     return at_front ? interface.front_face : interface.back_face;
