@@ -17,7 +17,7 @@ struct ChannelRecord {
                                                               ///< with the sensor's spread; NaN: none
   float charge = std::numeric_limits<float>::quiet_NaN();     ///< photoelectrons, after the sensor's
                                                               ///< response; NaN without [readout]
-  float amplitude = std::numeric_limits<float>::quiet_NaN();  ///< of the waveform; NaN without [readout]
+  float amplitude = std::numeric_limits<float>::quiet_NaN();  ///< photoelectrons; NaN without [readout]
   float time_ns = std::numeric_limits<float>::quiet_NaN();    ///< by the readout's pick-off; NaN: none
   std::vector<float> order_ns;  ///< times of the n-th photons of ReadoutSpec::photon_order; NaN: fewer
   std::vector<float> waveform;  ///< photoelectrons, when ReadoutSpec::pulses

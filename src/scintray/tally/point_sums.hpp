@@ -52,7 +52,7 @@ struct ShiftSums {
   bool operator==(const ShiftSums&) const = default;
 };
 
-/// Sums of EnergyBalance, without what was requested.
+/// Sums of EnergyBalance (keV), without what was requested.
 struct EnergySums {
   std::uint64_t events = 0, silent = 0;
   core::ExactSum started, deposited, escaped, non_scintillating;
