@@ -54,12 +54,10 @@ class RunningAnalysis {
 /// electronics for the same detected photons. The list of photons is not copied. With the electronics of the
 /// run the numbers are its own, except for the rounding of recorded times and positions to single precision:
 /// random streams are those of the run. Sensors are those of the scene.
-/// @param run        of the same file; its scene is built again, so files that it names must be where they
-/// were
+/// @param run        of the same file; its scene is built again, so files that it names must still exist
 /// @param readout    checked by the reader of [readout]
 /// @param options    of the simulation that builds the scene, with the models that it may name; the seed is
-/// that
-///                   of the run
+///                   that of the run
 /// @param extensions  that the scene was read with
 /// @throws InputError without events or without a list of their photons, for a scene whose sensors are not
 ///         those of the result, and for electronics that do not suit a sensor

@@ -47,8 +47,7 @@ class FitModel {
 
 /// Model of the fit of a scene, checked with every position, and with every parameter at its bounds.
 /// @throws InputError for a source without the quantity, a sweep that does not determine which scene is
-/// meant,
-///         options that the source does not have, and errors of the scene itself
+///         meant, options that the source does not have, and errors of the scene itself
 std::unique_ptr<FitModel> make_fit_model(const scene_file::SceneFile& file, const scene_file::FitSpec& fit,
                                          const analysis::MeasuredCurve& measured,
                                          const FitModelSettings& settings);

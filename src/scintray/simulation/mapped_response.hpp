@@ -74,8 +74,8 @@ class MappedResponse {
   core::IdVector<core::RegionId, GridId> grid_of_;
 };
 
-/// Time of the first of `count` photons (at least 1) that a channel detects of light emitted at time 0 with
-/// this decay time. Photons are generated in the order of their decay, whose steps are those of ordered
+/// Time of the first of `count` photons (at least 1) that a channel detects of light excited at time 0 with
+/// these decay times. Photons are generated in the order of their decay, whose steps are those of ordered
 /// exponentials (A. Renyi 1953, Acta Math. Acad. Sci. Hung. 4, 191), up to the one that is too late to be
 /// first even with the shortest delay: exact, and fast where times of flight are short compared with the
 /// decay time.

@@ -105,10 +105,9 @@ tally::PointResult finished_point(const tally::PointSums& sums, const RunOutline
 ///
 /// @param files    of shards or checkpoints
 /// @param partial  true to accept that blocks are missing: the result is then marked as partial, with the
-/// reason
+///                 reason
 /// @throws InputError for files that are damaged, of another run than the first, or that hold the same
-/// blocks,
-///         with each of them; and for missing blocks unless `partial`, with what is missing
+///         blocks, with each of them; and for missing blocks unless `partial`, with what is missing
 tally::RunResult merge_ranges(const std::vector<std::filesystem::path>& files, ResultSink& sink,
                               bool partial = false);
 

@@ -72,7 +72,7 @@ struct ResponseMap {
 /// Direction in which the light of a map is traced.
 enum class MapDirection {
   forward,    ///< from every cell
-  backward,   ///< from every channel, against the direction of the light; refused where that is not exact
+  backward,   ///< from every channel, against the direction of the light; an error where not exact
   automatic,  ///< backward where that is exact, else forward
 };
 

@@ -64,8 +64,7 @@ struct ReweightedPoint {
 /// points slowest; the histories are read once. For an event source all errors are those of sums over events:
 /// photons of one event share its position and energy.
 /// @throws InputError without histories; for names that are not in the histories, with the nearest; for
-/// values
-///         out of their range; for properties that reweighting cannot change
+///         values out of their range; for properties that reweighting cannot change
 [[nodiscard]] std::vector<ReweightedPoint> reweight_results(const std::filesystem::path& path,
                                                             const tally::RunResult& run,
                                                             const std::vector<PropertyScan>& scans);
