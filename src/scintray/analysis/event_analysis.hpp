@@ -113,9 +113,9 @@ class EventCollector {
   void add_times(const tally::EventRecord& event, Row& row) const;
   /// The numbers of events and pulses alone.
   EventAnalysis counted() const;
-  /// Mean light, light per energy and photopeak. Returns the light of the pulses.
   /// Photopeak of the light of pulses; the error of its content is that of a share of all events.
   Photopeak peak_of(const std::vector<double>& light) const;
+  /// Mean light, light per energy and photopeak. Returns the light of the pulses.
   std::vector<double> analyze_peak(EventAnalysis& analysis) const;
   void analyze_light(EventAnalysis& analysis) const;
   void analyze_parts(EventAnalysis& analysis) const;
