@@ -5,6 +5,7 @@
 #include <string>
 
 #include "scintray/core/error.hpp"
+#include "scintray/optics/birefringence.hpp"
 
 namespace scintray::optics {
 
