@@ -1,12 +1,10 @@
 #include <CLI/CLI.hpp>
-#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <memory>
-#include <string>
-#include <vector>
 
 #include "scintray/cli/progress.hpp"
+#include "scintray/cli/results_so_far.hpp"
 #include "scintray/cli/run_analysis.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/output_file.hpp"
@@ -14,99 +12,10 @@
 #include "scintray/report/text/result_json.hpp"
 #include "scintray/report/text/text_summary.hpp"
 #include "scintray/results/results.hpp"
-#include "scintray/simulation/checkpoints.hpp"
-#include "scintray/simulation/results_file.hpp"
 
 namespace scintray::cli {
 
 namespace {
-
-constexpr const char* kCheckpoints = ".checkpoints";
-
-/// A results file without lists of photons and histories, which may be long.
-class ShortResults : public simulation::ResultsFile {
- public:
-  using ResultsFile::ResultsFile;
-  void begin(const simulation::RunOutline& run) override {
-    simulation::RunOutline outline = run;
-    outline.photon_list = false;
-    outline.histories.reset();
-    ResultsFile::begin(outline);
-  }
-  void photons(const std::vector<tally::DetectedPhoton>&) override {}
-  void histories(const tally::PhotonHistories&, const tally::HistorySubjects&) override {}
-  void point(const tally::PointResult& result, const tally::HistorySubjects*) override {
-    ResultsFile::point(result, nullptr);
-  }
-};
-
-/// A new folder for temporary files. @throws SystemError
-std::filesystem::path temporary_folder() {
-  std::string name = (std::filesystem::temp_directory_path() / ("scintray-" + std::string(6, 'X'))).string();
-  if (mkdtemp(name.data()) == nullptr) throw core::SystemError("cannot make a temporary folder " + name);
-  return name;
-}
-
-/// The folder of the checkpoints that a name stands for; empty for a results file.
-std::filesystem::path checkpoints_of(const std::filesystem::path& named) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(named, ignored)) return named;
-  std::filesystem::path beside = named;
-  beside += kCheckpoints;
-  const bool goes_on = !std::filesystem::exists(named, ignored) && !simulation::range_files(beside).empty() &&
-                       std::filesystem::is_directory(beside, ignored);
-  return goes_on ? beside : std::filesystem::path();
-}
-
-/// A results file to read: that of a finished run, or one made of the checkpoints of a run that goes on, in a
-/// temporary folder that lasts as long as this.
-class ReadableResults {
- public:
-  /// @param named  a results file; where there is none, but NAME.checkpoints beside it, or where this is such
-  ///               a folder, what the run has finished so far, without its lists of photons and histories
-  /// @throws InputError for checkpoints that are damaged, or none; SystemError when the temporary folder
-  ///         cannot be written
-  explicit ReadableResults(const std::filesystem::path& named);
-  ReadableResults(const ReadableResults&) = delete;
-  ReadableResults& operator=(const ReadableResults&) = delete;
-  ~ReadableResults();
-
-  const std::filesystem::path& path() const { return path_; }
-  /// The results file that the run will write: what pages are named by.
-  const std::filesystem::path& finished() const { return finished_; }
-
- private:
-  std::filesystem::path path_, finished_;
-  std::filesystem::path folder_;  ///< temporary; empty: none
-};
-
-ReadableResults::ReadableResults(const std::filesystem::path& named) : path_(named), finished_(named) {
-  const std::filesystem::path checkpoints = checkpoints_of(named);
-  if (checkpoints.empty()) return;
-  const std::vector<std::filesystem::path> files = simulation::range_files(checkpoints);
-  if (files.empty())
-    throw core::InputError(
-        {{named.string()},
-         "there are no checkpoints in this folder",
-         "name a results file, or the folder NAME.checkpoints beside the output of a run"});
-  if (checkpoints.extension() == kCheckpoints)
-    finished_ = std::filesystem::path(checkpoints).replace_extension();
-  folder_ = temporary_folder();
-  path_ = folder_ / "so_far.h5";
-  try {
-    ShortResults results(path_);
-    simulation::merge_ranges(files, results, true);
-  } catch (...) {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-    throw;
-  }
-}
-
-ReadableResults::~ReadableResults() {
-  std::error_code ignored;
-  if (!folder_.empty()) std::filesystem::remove_all(folder_, ignored);
-}
 
 struct ReportOptions {
   std::vector<std::filesystem::path> files;
