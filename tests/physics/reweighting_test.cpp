@@ -23,6 +23,16 @@ namespace {
 
 using enum OpticalProperty;
 
+/// Runs a scene into a file of its own.
+std::filesystem::path run_scene(const std::string& text, std::uint64_t seed) {
+  const auto output = scratch_folder(fmt::format("reweighting_{}", seed)) / "run.h5";
+  SimulationOptions options;
+  options.surface_hooks.cache.clear();
+  ResultsFile results(output);
+  Simulation(SceneFile::from_text(text, source_file("test.toml").string()), options).run_all(results);
+  return output;
+}
+
 /// What is traced, and what is wanted of it.
 struct Optics {
   double length_mm = 0.0;
@@ -68,15 +78,8 @@ decay = [{ time = "40 ns", rise = "0 ns", fraction = 1.0 }]
            fmt::format(fmt::runtime(side), optics.reflectance) + kDatabase;
   }
 
-  /// Runs into a file of its own.
   std::filesystem::path run(const Optics& optics, std::uint64_t seed) const {
-    const auto output = scratch_folder(fmt::format("reweighting_{}", seed)) / "run.h5";
-    SimulationOptions options;
-    options.surface_hooks.cache.clear();
-    ResultsFile results(output);
-    Simulation(SceneFile::from_text(text(optics, seed), source_file("test.toml").string()), options)
-        .run_all(results);
-    return output;
+    return run_scene(text(optics, seed), seed);
   }
 };
 
@@ -167,10 +170,6 @@ TEST_CASE(
     "integral") {
   const double tau = 8.0;
   const double exact = 0.5 * (std::exp(-tau) + tau * std::expint(-tau));
-  const auto output = scratch_folder("reweighting_rare") / "run.h5";
-  SimulationOptions options;
-  options.surface_hooks.cache.clear();
-  ResultsFile results(output);
   const std::string text = R"(
 ambient = "vacuum"
 [[part]]
@@ -205,9 +204,8 @@ photons = 400_000
 photon_history = true
 seed = 9700
 )";
-  Simulation(SceneFile::from_text(text + kDatabase, source_file("test.toml").string()), options)
-      .run_all(results);
-  const ReweightedPoint point = reweight(output, {{absorption_length, "clouded", false, {10.0}}}).at(0);
+  const ReweightedPoint point =
+      reweight(run_scene(text + kDatabase, 9700), {{absorption_length, "clouded", false, {10.0}}}).at(0);
   CHECK(point.light.valid);
   check_law("exponential integral", point.light.detected_fraction, Estimate{exact, 0.0});
   // Seven photons of 400,000 would be detected without weights.

@@ -1,15 +1,10 @@
 #include "embree_rays.hpp"
 
-#if __has_include(<embree4/rtcore.h>)
-#include <embree4/rtcore.h>
-#else
-#include <embree3/rtcore.h>
-#endif
-
 #include <algorithm>
 #include <cstring>
 #include <limits>
 
+#include "embree_scene.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/lanes.hpp"
 
@@ -18,43 +13,6 @@ namespace scintray::bench {
 namespace {
 
 constexpr float kFar = std::numeric_limits<float>::infinity();
-
-RTCScene make_scene(RTCDevice device, const scene::Boundary& boundary) {
-  RTCScene scene = rtcNewScene(device);
-  rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
-  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), boundary.vertices.size()));
-  auto* corners = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), boundary.size()));
-  for (const core::PlainVec3& vertex : boundary.vertices)
-    for (int axis = 0; axis < 3; ++axis) *vertices++ = static_cast<float>(vertex[axis]);
-  std::copy(boundary.corners.begin(), boundary.corners.end(), corners);
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(scene, geometry);
-  rtcReleaseGeometry(geometry);
-  rtcCommitScene(scene);
-  return scene;
-}
-
-/// Calls of Embree, which has a context in version 3 and none in version 4.
-struct Query {
-  RTCScene scene;
-#if defined(RTC_VERSION_MAJOR) && RTC_VERSION_MAJOR >= 4
-  explicit Query(RTCScene of) : scene(of) {}
-  void operator()(RTCRayHit& hit) { rtcIntersect1(scene, &hit); }
-  void operator()(const int* valid, RTCRayHit4& hit) { rtcIntersect4(valid, scene, &hit); }
-  void operator()(const int* valid, RTCRayHit8& hit) { rtcIntersect8(valid, scene, &hit); }
-  void operator()(const int* valid, RTCRayHit16& hit) { rtcIntersect16(valid, scene, &hit); }
-#else
-  RTCIntersectContext context;
-  explicit Query(RTCScene of) : scene(of) { rtcInitIntersectContext(&context); }
-  void operator()(RTCRayHit& hit) { rtcIntersect1(scene, &context, &hit); }
-  void operator()(const int* valid, RTCRayHit4& hit) { rtcIntersect4(valid, scene, &context, &hit); }
-  void operator()(const int* valid, RTCRayHit8& hit) { rtcIntersect8(valid, scene, &context, &hit); }
-  void operator()(const int* valid, RTCRayHit16& hit) { rtcIntersect16(valid, scene, &context, &hit); }
-#endif
-};
 
 std::uint32_t triangle_of(unsigned geometry, unsigned triangle) {
   return geometry == RTC_INVALID_GEOMETRY_ID ? scene::kNoTriangle : triangle;
@@ -80,7 +38,7 @@ struct EmbreeRays::Handles {
 
 EmbreeRays::EmbreeRays(const scene::Accelerator& region, const std::string& max_isa)
     : handles_(std::make_unique<Handles>(max_isa)), start_mm_(static_cast<float>(region.start_mm())) {
-  handles_->scene = make_scene(handles_->device, region.boundary());
+  handles_->scene = make_embree_scene(handles_->device, region.boundary());
 }
 
 EmbreeRays::~EmbreeRays() = default;
@@ -93,7 +51,7 @@ bool EmbreeRays::has_packets(int size) const {
 }
 
 void EmbreeRays::trace_single(const RaySet& rays, RayHits& hits) const {
-  Query query(handles_->scene);
+  EmbreeQuery query;
   const std::size_t count = rays.size();
   for (std::size_t i = 0; i < count; ++i) {
     // Written by fours, as the tracer does (make_ray in scene/accelerator.cpp).
@@ -108,7 +66,7 @@ void EmbreeRays::trace_single(const RaySet& rays, RayHits& hits) const {
     hit.ray.flags = 0;
     hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    query(hit);
+    query(handles_->scene, hit);
     hits.triangle[i] = triangle_of(hit.hit.geomID, hit.hit.primID);
     hits.distance_mm[i] = hit.ray.tfar;
   }
@@ -117,7 +75,7 @@ void EmbreeRays::trace_single(const RaySet& rays, RayHits& hits) const {
 template <typename Packet>
 void EmbreeRays::trace_packets_of(const RaySet& rays, RayHits& hits) const {
   constexpr std::size_t kSize = sizeof(Packet::ray.org_x) / sizeof(float);
-  Query query(handles_->scene);
+  EmbreeQuery query;
   alignas(64) int valid[kSize];
   std::fill(valid, valid + kSize, -1);
   Packet packet;
@@ -135,7 +93,7 @@ void EmbreeRays::trace_packets_of(const RaySet& rays, RayHits& hits) const {
       packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
       packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
     }
-    query(valid, packet);
+    query(handles_->scene, valid, packet);
     for (std::size_t i = 0; i < kSize; ++i) {
       hits.triangle[first + i] = triangle_of(packet.hit.geomID[i], packet.hit.primID[i]);
       hits.distance_mm[first + i] = packet.ray.tfar[i];

@@ -1,14 +1,9 @@
 #include "raw_embree.hpp"
 
-#if __has_include(<embree4/rtcore.h>)
-#include <embree4/rtcore.h>
-#else
-#include <embree3/rtcore.h>
-#endif
-
 #include <limits>
 
 #include "clock.hpp"
+#include "embree_scene.hpp"
 
 namespace scintray::bench {
 
@@ -16,24 +11,6 @@ namespace {
 
 /// Distance (mm) from the origin at which rays start, as most rays do that start on a boundary.
 constexpr float kStartMm = 1e-5f;
-
-RTCScene make_scene(RTCDevice device, const scene::Boundary& boundary) {
-  RTCScene scene = rtcNewScene(device);
-  rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
-  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), boundary.vertices.size()));
-  auto* corners = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), boundary.size()));
-  for (const core::PlainVec3& vertex : boundary.vertices)
-    for (int axis = 0; axis < 3; ++axis) *vertices++ = static_cast<float>(vertex.vec()[axis]);
-  for (const std::uint32_t corner : boundary.corners) *corners++ = corner;
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(scene, geometry);
-  rtcReleaseGeometry(geometry);
-  rtcCommitScene(scene);
-  return scene;
-}
 
 }  // namespace
 
@@ -57,17 +34,14 @@ RawEmbree::RawEmbree(const scene::Scene& scene, std::vector<RecordedRay> rays)
   boundaries_->scenes.resize(scene.accelerators.size());
   for (const RecordedRay& ray : rays_) {
     RTCScene& mine = boundaries_->scenes[ray.accelerator];
-    if (!mine) mine = make_scene(boundaries_->device, scene.accelerators[ray.accelerator]->boundary());
+    if (!mine) mine = make_embree_scene(boundaries_->device, scene.accelerators[ray.accelerator]->boundary());
   }
 }
 
 RawEmbree::~RawEmbree() = default;
 
 void RawEmbree::trace_once() {
-#if !defined(RTC_VERSION_MAJOR) || RTC_VERSION_MAJOR < 4
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-#endif
+  EmbreeQuery query;
   double sum_mm = 0.0;
   std::uint64_t hits = 0;
   for (const RecordedRay& ray : rays_) {
@@ -85,11 +59,7 @@ void RawEmbree::trace_once() {
     hit.ray.flags = 0;
     hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-#if defined(RTC_VERSION_MAJOR) && RTC_VERSION_MAJOR >= 4
-    rtcIntersect1(boundaries_->scenes[ray.accelerator], &hit);
-#else
-    rtcIntersect1(boundaries_->scenes[ray.accelerator], &context, &hit);
-#endif
+    query(boundaries_->scenes[ray.accelerator], hit);
     if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) continue;
     ++hits;
     sum_mm += static_cast<double>(hit.ray.tfar);

@@ -11,7 +11,7 @@
 
 namespace scintray::bench {
 
-/// A region whose rays are compared. Its accelerator asks Embree.
+/// A region whose rays are compared. Its accelerator queries Embree.
 struct RayRegion {
   std::string name;
   std::shared_ptr<const scene::Accelerator> accelerator;

@@ -151,9 +151,15 @@ static void from_json(const json& node, Machine& machine) {
 std::string json_of(const Report& report) {
   json node = {{"format", kFormat},       {"format_version", kFormatVersion}, {"version", report.version},
                {"date", report.date},     {"machine", report.machine},        {"seconds", report.seconds},
-               {"rounds", report.rounds}, {"scenes", report.scenes}};
+               {"rounds", report.rounds}, {"scenes", json::array()}};
   if (!report.note.empty()) node["note"] = report.note;
-  return node.dump(1) + "\n";
+  // One line a scene: some hundred numbers each. No text of the report can hold this with its quotes.
+  const std::string empty = "\"scenes\": []";
+  std::string text = node.dump(1), lines;
+  for (const SceneFigures& scene : report.scenes)
+    lines += (lines.empty() ? "\n  " : ",\n  ") + json(scene).dump();
+  text.replace(text.find(empty), empty.size(), "\"scenes\": [" + lines + "\n ]");
+  return text + "\n";
 }
 
 Report report_of_json(const std::string& text, const std::string& name) {
