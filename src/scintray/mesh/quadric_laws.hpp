@@ -29,7 +29,17 @@ Real distance_out(const QuadricOnRayOf<Real>& q) {
   return select(outwards | (q.a > zero), distance, Real(std::numeric_limits<double>::infinity()));
 }
 
+/// A point next to a surface: displacement (mm) onto the surface, and its unit normal there, outwards.
 template <typename Real>
+struct FootOf {
+  core::Triple<Real> step, normal;
+};
+
+/// What is known of a quadric when a function of it is compiled: of a cylinder `axial` and `slope` are 0, and
+/// what they are factors of is left out, which changes no number.
+enum class QuadricShape { any, cylinder };
+
+template <typename Real, QuadricShape kShape = QuadricShape::any>
 struct QuadricOf {
   using Vector = core::Triple<Real>;
   Vector origin, axis;
@@ -46,36 +56,40 @@ struct QuadricOf {
     return {from_origin - z * axis, z};
   }
   Real value(const Place& at) const {
+    if constexpr (kShape == QuadricShape::cylinder) return dot(at.rho, at.rho) - radius2;
     return dot(at.rho, at.rho) + (axial * at.z - Real(2.0) * slope) * at.z - radius2;
   }
   /// Half the gradient of q (mm), which points outwards; zero at the tip of a cone.
-  Vector gradient(const Place& at) const { return at.rho + (axial * at.z - slope) * axis; }
+  Vector gradient(const Place& at) const {
+    if constexpr (kShape == QuadricShape::cylinder) return at.rho;
+    return at.rho + (axial * at.z - slope) * axis;
+  }
 
   QuadricOnRayOf<Real> on_ray(const Vector& from, const Vector& direction) const {
     const Place at = place(from);
     const Real along = dot(axis, direction);
     const Vector across = direction - along * axis;
+    if constexpr (kShape == QuadricShape::cylinder)
+      return {dot(across, across), dot(at.rho, across), value(at)};
     return {dot(across, across) + axial * along * along, dot(at.rho, across) + (axial * at.z - slope) * along,
             value(at)};
   }
-  /// Displacement (mm) onto the surface of a point next to it: one step of Newton's method.
-  Vector correction(const Vector& point) const {
-    using core::select;
+  /// Of a point next to the surface: the displacement (mm) onto it, by one step of Newton's method along the
+  /// gradient, and the unit normal there, outwards; at the tip of a cone no displacement, and along its axis.
+  /// The normal is that of the gradient before the step, from which the one after it differs by less than
+  /// rounding, as the step is of the order of rounding itself.
+  FootOf<Real> nearest(const Vector& point) const {
+    using core::root, core::select;
     const Place at = place(point);
     const Vector outwards = gradient(at);
-    const Real square = dot(outwards, outwards), zero(0.0);
+    const Real square = dot(outwards, outwards), zero(0.0), one(1.0);
     const auto known = square > zero;
-    const Vector step = (Real(-0.5) * value(at) / select(known, square, Real(1.0))) * outwards;
-    return select(known, step, Vector{zero, zero, zero});
-  }
-  /// Unit normal at a point of the surface, outwards; at the tip of a cone, along its axis.
-  Vector normal(const Vector& point) const {
-    using core::root, core::select;
-    const Vector outwards = gradient(place(point));
-    const Real length = root(dot(outwards, outwards)), zero(0.0);
-    const auto known = length > zero;
+    const Real inverse = one / root(select(known, square, one));
+    const Vector normal = inverse * outwards;
+    const Real height = Real(0.5) * value(at) * inverse;
+    if constexpr (kShape == QuadricShape::cylinder) return {-height * normal, normal};
     const Vector along = select(slope > zero, -axis, axis);
-    return select(known, (Real(1.0) / select(known, length, Real(1.0))) * outwards, along);
+    return {select(known, -height * normal, Vector{zero, zero, zero}), select(known, normal, along)};
   }
 };
 

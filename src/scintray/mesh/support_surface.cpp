@@ -107,12 +107,18 @@ double SupportSurface::most_change(const core::Vec3& point, double within_mm) co
          within_mm;
 }
 
-core::Vec3 SupportSurface::normal(const core::Vec3& point) const {
-  if (!is_torus()) [[likely]]
-    return core::vec(numbers().normal(core::triple(point)));
+Foot SupportSurface::nearest(const core::Vec3& point) const {
+  const auto vectors = [](const FootOf<double>& at) {
+    return Foot{core::vec(at.step), core::vec(at.normal)};
+  };
+  if (is_cylinder()) [[likely]]
+    return vectors(numbers<QuadricShape::cylinder>().nearest(core::triple(point)));
+  if (!is_torus()) return vectors(numbers().nearest(core::triple(point)));
   const core::Vec3 outwards = gradient(point);
   const double length = outwards.norm();
-  return length > 0.0 ? core::Vec3(outwards / length) : axis.vec();
+  if (!(length > 0.0)) return {core::Vec3::Zero(), axis.vec()};
+  const core::Vec3 normal = outwards / length;
+  return {(-0.5 * value(point) / length) * normal, normal};
 }
 
 double SupportSurface::distance(const core::Vec3& point) const {
@@ -132,15 +138,6 @@ double SupportSurface::distance(const core::Vec3& point) const {
   }
   const double q = value(point), slope_of_q = 2.0 * gradient(point).norm();
   return slope_of_q > 0.0 ? q / slope_of_q : -std::sqrt(std::abs(q));
-}
-
-core::Vec3 SupportSurface::correction(const core::Vec3& point) const {
-  if (!is_torus()) [[likely]]
-    return core::vec(numbers().correction(core::triple(point)));
-  const core::Vec3 outwards = gradient(point);
-  const double length2 = outwards.squaredNorm();
-  if (!(length2 > 0.0)) return core::Vec3::Zero();
-  return (-0.5 * value(point) / length2) * outwards;
 }
 
 std::optional<SupportSurface> SupportSurface::moved(const Eigen::Affine3d& motion) const {

@@ -17,6 +17,11 @@ inline constexpr std::uint32_t kNoSupport = 0xffffffffu;
 /// Kinds of support surface.
 enum class SurfaceKind { sphere, spheroid, cylinder, paraboloid, cone, hyperboloid, torus };
 
+/// A point next to a surface: displacement (mm) onto the surface, and its unit normal there, outwards.
+struct Foot {
+  core::Vec3 step, normal;
+};
+
 /// A quadric of revolution, of a cone one nappe, or a torus.
 ///
 /// With z along the axis from the origin and rho the distance from the axis, a quadric is
@@ -78,14 +83,18 @@ struct SupportSurface {
   /// Whether a point of the surface is on the sheet around its origin: not in the other nappe of a cone.
   bool is_on_sheet(const core::Vec3& point) const;
   /// Unit normal at a point of the surface, outwards; at the tip of a cone, along its axis.
-  core::Vec3 normal(const core::Vec3& point) const;
+  core::Vec3 normal(const core::Vec3& point) const { return nearest(point).normal; }
   /// Distance (mm) of a point from the surface, to first order; negative inside.
   double distance(const core::Vec3& point) const;
   /// Displacement (mm) onto the surface of a point next to it: one step of Newton's method.
-  core::Vec3 correction(const core::Vec3& point) const;
+  core::Vec3 correction(const core::Vec3& point) const { return nearest(point).step; }
+  /// Both, as QuadricOf::nearest; of a torus as well.
+  Foot nearest(const core::Vec3& point) const;
 
+  bool is_cylinder() const { return axial == 0.0 && slope == 0.0 && major == 0.0; }
   /// The numbers of a quadric.
-  QuadricOf<double> numbers() const {
+  template <QuadricShape kShape = QuadricShape::any>
+  QuadricOf<double, kShape> numbers() const {
     return {core::triple(origin), core::triple(axis), axial, slope, radius2};
   }
 

@@ -273,17 +273,15 @@ std::uint32_t Accelerator::facet_at(std::uint32_t quadric, const core::Vec3& poi
 }
 
 core::Vec3 Accelerator::normal_at(std::uint32_t triangle, const core::Vec3& point) const {
-  const ExactBodies& exact = boundary_.exact;
-  const std::uint32_t quadric = exact.empty() ? kNoSurface : exact.quadric_of[triangle];
-  if (quadric == kNoSurface) return normal(triangle);
-  const core::Vec3 outwards = exact.quadrics[quadric].surface.normal(point);
-  return exact.quadrics[quadric].around_region ? outwards : core::Vec3(-outwards);
+  return boundary_.exact.empty() ? core::Vec3(normal(triangle)) : nearest_at(triangle, point).normal;
 }
 
-core::Vec3 Accelerator::correction_at(std::uint32_t triangle, const core::Vec3& point) const {
+mesh::Foot Accelerator::nearest_at(std::uint32_t triangle, const core::Vec3& point) const {
   const std::uint32_t quadric = boundary_.exact.quadric_of[triangle];
-  if (quadric == kNoSurface) return core::Vec3::Zero();
-  return boundary_.exact.quadrics[quadric].surface.correction(point);
+  if (quadric == kNoSurface) return {core::Vec3::Zero(), normal(triangle)};
+  mesh::Foot nearest = boundary_.exact.quadrics[quadric].surface.nearest(point);
+  if (!boundary_.exact.quadrics[quadric].around_region) nearest.normal = -nearest.normal;
+  return nearest;
 }
 
 FirstHit Accelerator::first_hit(core::FourFloats origin_and_start, core::FourFloats direction) const {

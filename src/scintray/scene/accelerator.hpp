@@ -69,8 +69,8 @@ class Accelerator {
   bool has_exact_bodies() const { return !boundary_.exact.empty(); }
   /// Unit normal, out of the region, of the face of a triangle at a point next to it.
   core::Vec3 normal_at(std::uint32_t triangle, const core::Vec3& point) const;
-  /// Displacement (mm) of a point next to a triangle's face onto it; zero for flat faces.
-  core::Vec3 correction_at(std::uint32_t triangle, const core::Vec3& point) const;
+  /// The normal, and the displacement (mm) of the point onto the face; zero for flat faces.
+  mesh::Foot nearest_at(std::uint32_t triangle, const core::Vec3& point) const;
 
   /// find_exit in steps, for the propagation through total reflections, in which the next ray is available in
   /// single precision before it is in double: the first hit, the approach to it, and, where that does not

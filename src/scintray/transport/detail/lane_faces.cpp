@@ -40,7 +40,11 @@ LaneFaces::LaneFaces(const scene::Accelerator& accelerator) : boundary_(&acceler
   };
   for (std::uint32_t i = body.planes_begin; i < body.planes_end; ++i) add(exact.planes[i]);
   flat_ = body.planes_end - body.planes_begin;
-  for (std::uint32_t i = body.quadrics_begin; i < body.quadrics_end; ++i) add(exact.quadrics[i]);
+  cylinders_ = true;
+  for (std::uint32_t i = body.quadrics_begin; i < body.quadrics_end; ++i) {
+    add(exact.quadrics[i]);
+    cylinders_ = cylinders_ && exact.quadrics[i].surface.is_cylinder();
+  }
 }
 
 LanePlanes LaneFaces::planes() const {
@@ -52,7 +56,7 @@ LanePlanes LaneFaces::planes() const {
 }
 
 LaneBody LaneFaces::body() const {
-  return {numbers_.data(), flat_, static_cast<std::uint32_t>(numbers_.size())};
+  return {numbers_.data(), flat_, static_cast<std::uint32_t>(numbers_.size()), cylinders_};
 }
 
 double LaneFaces::left_at(std::uint32_t triangle) const {

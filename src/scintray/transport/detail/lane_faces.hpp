@@ -37,6 +37,7 @@ class LaneFaces {
   std::vector<Face> list_;
   std::vector<LaneBody::Face> numbers_;  ///< of a body
   std::uint32_t flat_ = 0;               ///< of these, the first: planes
+  bool cylinders_ = false;               ///< all others are cylinders
 };
 
 }  // namespace scintray::transport

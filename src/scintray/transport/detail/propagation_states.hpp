@@ -96,15 +96,12 @@ class CurvedPropagation {
     photon_.optical_depth -= depth;
     advance(photon_, distance_mm);
     photon_.on_triangle = next_;
-    photon_.position += region_.direction_to_world(
-        accelerator_.correction_at(next_, region_.point_to_local(photon_.position)));
+    const mesh::Foot wall = accelerator_.nearest_at(next_, region_.point_to_local(photon_.position));
+    photon_.position += region_.direction_to_world(wall.step);
+    normal_ = region_.direction_to_world(wall.normal);
   }
   /// Cosine of incidence at the wall.
-  double incidence(const Wall& wall) {
-    normal_ = region_.direction_to_world(
-        accelerator_.normal_at(wall.triangle, region_.point_to_local(photon_.position)));
-    return photon_.ray.direction.dot(normal_);
-  }
+  double incidence(const Wall&) { return photon_.ray.direction.dot(normal_); }
   void reflect_at(const Wall&, double) {
     ++photon_.interactions;
     optics::reflect(photon_.ray, normal_);

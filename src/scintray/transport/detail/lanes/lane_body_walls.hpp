@@ -6,14 +6,17 @@
 #include "scintray/mesh/quadric_laws.hpp"
 #include "scintray/transport/detail/lanes/lane_fours.hpp"
 #include "scintray/transport/detail/lanes/lane_kernel.hpp"
+#include "scintray/transport/detail/lanes/lane_kernel_of.hpp"
 #include "scintray/transport/detail/lanes/lane_numbers.hpp"
 #include "scintray/transport/detail/lanes/lane_planes.hpp"
 
 namespace scintray::transport {
 namespace {
 
-template <typename Real>
+/// @tparam kShape  of all quadrics
+template <typename Real, mesh::QuadricShape kShape>
 class LaneBodyWalls {
+  using Quadric = mesh::QuadricOf<Real, kShape>;
   using Mask = typename Real::Mask;
   using Vector = core::Triple<Real>;
 
@@ -69,15 +72,16 @@ class LaneBodyWalls {
     const Real zero(0.0);
     const Mask flat = ahead.plane < Real(static_cast<double>(body_.planes));
     const Wall wall = body_.count - body_.planes == 1 ? only_wall() : walls_at(faces);
-    there = there + select(flat, Vector{zero, zero, zero}, wall.quadric.correction(there - centre));
-    const Vector normal = select(flat, ahead.normal, wall.outwards * wall.quadric.normal(there - centre));
+    const mesh::FootOf<Real> round = wall.quadric.nearest(there - centre);
+    there = there + select(flat, Vector{zero, zero, zero}, round.step);
+    const Vector normal = select(flat, ahead.normal, wall.outwards * round.normal);
     return {normal, dot(direction, normal)};
   }
 
  private:
   /// A quadric, and LaneBody::Face::outwards of it; of a plane any numbers.
   struct Wall {
-    mesh::QuadricOf<Real> quadric;
+    Quadric quadric;
     Real outwards;
   };
   Wall only_wall() const {
@@ -96,7 +100,7 @@ class LaneBodyWalls {
     load_fours(third, c);
     return {{{a.of[0], a.of[1], a.of[2]}, {b.of[0], b.of[1], b.of[2]}, a.of[3], b.of[3], c.of[0]}, c.of[1]};
   }
-  static mesh::QuadricOf<Real> quadric(const LaneBody::Face& face) {
+  static Quadric quadric(const LaneBody::Face& face) {
     return {vector_of(face.origin), vector_of(face.axis), Real(face.axial), Real(face.slope),
             Real(face.radius2)};
   }
@@ -105,6 +109,17 @@ class LaneBodyWalls {
   const LaneBody& body_;
   LaneNumbers<Real> left_;
 };
+
+/// Inlined, so that a profile has the time under the name of the kernel, which is known outside its file.
+template <typename Real>
+[[gnu::always_inline]] inline void propagate_in_body(const LaneBody& body, const LaneLimits& limits,
+                                                     LaneWork* photons, std::size_t count) {
+  using mesh::QuadricShape;
+  if (body.cylinders)
+    LanePropagation<LaneBodyWalls<Real, QuadricShape::cylinder>>(body, limits, photons, count).run();
+  else
+    LanePropagation<LaneBodyWalls<Real, QuadricShape::any>>(body, limits, photons, count).run();
+}
 
 }  // namespace
 }  // namespace scintray::transport

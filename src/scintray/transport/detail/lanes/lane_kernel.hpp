@@ -46,6 +46,7 @@ struct LaneBody {
   };
   const Face* faces = nullptr;
   std::uint32_t planes = 0, count = 0;
+  bool cylinders = false;  ///< all quadrics are cylinders
 };
 
 /// Values of LaneWork::least_sin2 above every sine squared.

@@ -11,7 +11,7 @@ void propagate_lanes_2(const LanePlanes& planes, const LaneLimits& limits, LaneW
 
 void propagate_lanes_in_body_2(const LaneBody& body, const LaneLimits& limits, LaneWork* photons,
                                std::size_t count) {
-  LanePropagation<LaneBodyWalls<LaneReal<xsimd::sse2>>>(body, limits, photons, count).run();
+  propagate_in_body<LaneReal<xsimd::sse2>>(body, limits, photons, count);
 }
 
 }  // namespace scintray::transport

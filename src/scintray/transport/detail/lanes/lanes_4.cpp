@@ -12,7 +12,7 @@ void propagate_lanes_4(const LanePlanes& planes, const LaneLimits& limits, LaneW
 
 void propagate_lanes_in_body_4(const LaneBody& body, const LaneLimits& limits, LaneWork* photons,
                                std::size_t count) {
-  LanePropagation<LaneBodyWalls<LaneReal<xsimd::avx2>>>(body, limits, photons, count).run();
+  propagate_in_body<LaneReal<xsimd::avx2>>(body, limits, photons, count);
 }
 
 void run_lanes_4(LanePool& pool) { LanePasses<LaneRealPair<xsimd::avx2>, LaneDraws::one_by_one>(pool).run(); }

@@ -12,7 +12,7 @@ void propagate_lanes_8(const LanePlanes& planes, const LaneLimits& limits, LaneW
 
 void propagate_lanes_in_body_8(const LaneBody& body, const LaneLimits& limits, LaneWork* photons,
                                std::size_t count) {
-  LanePropagation<LaneBodyWalls<LaneReal<xsimd::avx512f>>>(body, limits, photons, count).run();
+  propagate_in_body<LaneReal<xsimd::avx512f>>(body, limits, photons, count);
 }
 
 void run_lanes_8(LanePool& pool) {
