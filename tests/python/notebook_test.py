@@ -92,7 +92,7 @@ class Notebooks(Case):
 class Bars(Case):
     def test_a_bar_has_share_rate_and_time_left_and_goes(self):
         stream = io.StringIO()
-        bar = scintray.ProgressBar(stream)
+        bar = scintray.ProgressBar(stream, rewrites=True)
         bar(0, 1000, 'photons')
         bar(500, 1000, 'photons')
         bar(1000, 1000, 'photons')
@@ -105,14 +105,33 @@ class Bars(Case):
 
     def test_work_shows_its_bar_on_standard_error(self):
         import sys
-        before, sys.stderr = sys.stderr, io.StringIO()
-        try:
-            crystal(300_000).run(progress=True)
-            written = sys.stderr.getvalue()
-        finally:
-            sys.stderr = before
+        class Terminal(io.StringIO):
+            def isatty(self):
+                return True
+
+        def written_to(stream):
+            before, sys.stderr = sys.stderr, stream
+            try:
+                crystal(300_000).run(progress=True)
+            finally:
+                sys.stderr = before
+            return stream.getvalue()
+
+        written = written_to(Terminal())
         self.assertIn('photons', written)
         self.assertTrue(written.endswith('\r'))
+        self.assertEqual(written_to(io.StringIO()), '', 'a log has no line of short work')
+
+    def test_a_log_has_a_line_now_and_then(self):
+        stream = io.StringIO()
+        bar = scintray.ProgressBar(stream, interval_s=0.0)
+        bar(500, 1000, 'photons')
+        bar(1000, 1000, 'photons')
+        bar.close()
+        lines = stream.getvalue().split('\n')
+        self.assertRegex(lines[0], r'^ 50 %  500 photons, [\d.e+]+/s, \d+ s left$')
+        self.assertEqual(lines[1:], ['100 %  1000 photons', ''])
+        self.assertNotIn('\r', stream.getvalue())
 
 
 class Parts(Case):

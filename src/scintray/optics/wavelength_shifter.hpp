@@ -8,12 +8,13 @@
 
 #include "scintray/core/curve.hpp"
 #include "scintray/core/philox.hpp"
+#include "scintray/core/units.hpp"
 #include "scintray/optics/decay_time.hpp"
 
 namespace scintray::optics {
 
-/// Photon energy at a vacuum wavelength, eV: hc = 1239.841984 eV nm (SI 2019, exact).
-constexpr double photon_energy_eV(double wavelength_nm) { return 1239.8419843320026 / wavelength_nm; }
+/// Photon energy at a vacuum wavelength, eV.
+constexpr double photon_energy_eV(double wavelength_nm) { return core::kHc_eV_nm / wavelength_nm; }
 
 /// Numbers and energies of photons absorbed by wavelength shifters; each is re-emitted or kept.
 struct ShiftCount {

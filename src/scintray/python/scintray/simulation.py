@@ -203,25 +203,44 @@ def _draw_points(ax: Optional[Any], plane: str, position_mm: np.ndarray, value: 
 
 
 class ProgressBar:
-    """A line on standard error with share, rate and time left, for ``run(progress=True)``."""
+    """Share, rate and time left on standard error, for ``run(progress=True)``.
 
-    def __init__(self, stream: Any = None) -> None:
+    On a terminal and in a notebook one line, written again at every call. Elsewhere, as in the log of a batch job, a
+    line of its own every ``interval_s``, so that short work leaves none.
+
+    Parameters
+    ----------
+    stream : standard error if not given
+    rewrites : whether the stream shows a line that is written again; found out if not given
+    interval_s : seconds between lines of a log
+    """
+
+    def __init__(self, stream: Any = None, rewrites: Optional[bool] = None, interval_s: float = 60.0) -> None:
         self._stream = stream if stream is not None else sys.stderr
+        if rewrites is None:
+            rewrites = self._stream.isatty() or "ipykernel" in sys.modules
+        self._rewrites = rewrites
+        self._interval_s = interval_s
         self._start = time.monotonic()
+        self._last = self._start
         self._width = 0
 
     def __call__(self, done: int, of: int, thing: str) -> None:
-        elapsed = time.monotonic() - self._start
+        now = time.monotonic()
+        if not self._rewrites and now - self._last < self._interval_s:
+            return
+        self._last = now
+        elapsed = now - self._start
         share = f"{100.0 * done / of:3.0f} %  " if of else ""
         line = f"{share}{done} {thing}"
         if of and 0 < done < of and elapsed > 0.0 and not thing.startswith("%"):
             line += f", {done / elapsed:.3g}/s, {(of - done) * elapsed / done:.0f} s left"
-        self._stream.write("\r" + line.ljust(self._width))
+        self._stream.write("\r" + line.ljust(self._width) if self._rewrites else line + "\n")
         self._stream.flush()
-        self._width = len(line)
+        self._width = len(line) if self._rewrites else 0
 
     def close(self) -> None:
-        """Removes the line."""
+        """Removes the line that is written again."""
         if self._width:
             self._stream.write("\r" + " " * self._width + "\r")
             self._stream.flush()
