@@ -73,7 +73,7 @@ struct MatterSpec {
   core::FileLocation where;
 };
 
-/// Name that stands for the ambient in MatterSpec::part.
+/// Name of the ambient in MatterSpec::part.
 inline constexpr const char* kAmbientName = "ambient";
 
 /// type = "gammas": transport of gammas through the scene.

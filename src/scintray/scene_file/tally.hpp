@@ -13,7 +13,7 @@
 
 namespace scintray::scene_file {
 
-/// Words for step events in scene files and in the names of bins. "cut" stands for both events of photons
+/// Words for step events in scene files and in the names of bins. "cut" means both events of photons
 /// that were cut.
 inline constexpr core::Word<core::StepEvent> kEventWords[] = {
     {"emitted", core::StepEvent::emitted},
