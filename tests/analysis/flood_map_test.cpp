@@ -142,7 +142,7 @@ TEST_CASE("12 x 12 crystals on 4 x 4 channels are resolved by their light") {
         const double photons = 4000.0 * share / sum;
         light.push_back(std::max(0.0, photons + std::sqrt(photons) * sample_normal(rng)));
       }
-      // Plain weights fold the corners: light of the outermost crystals is spread more evenly than that of
+      // Plain weights fold the corners: light of the outermost crystals is spread more uniformly than that of
       // the next ones, which draws it to the middle.
       positions.push_back(*anger_position(light, channels, {2.0, 0.0}));
       parts.emplace_back(crystal);

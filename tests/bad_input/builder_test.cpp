@@ -1,4 +1,4 @@
-// Mistakes in builders and shapes: what is stated, where, and how to mend it.
+// Mistakes in builders and shapes: what is stated, where, and how to correct it.
 #include "bad_input/marked_text.hpp"
 #include "scintray/scene/build_scene.hpp"
 #include "scintray/scene_file/read_scene.hpp"

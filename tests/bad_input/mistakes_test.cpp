@@ -1,6 +1,6 @@
-// The mistakes of tests/bad_input/mistakes: each file begins with comments that say where its answers point
-// to, and what they say was found, what was expected, and what to write. Each problem has a group of its own,
-// which begins with its place; a note, on a scene that can run, has one word of its text.
+// The mistakes of tests/bad_input/mistakes: each file begins with comments that state the places in its
+// messages, and what these contain: what was found, what was expected, and what to write. Each problem has a
+// group of its own, which begins with its place; a note, on a scene that can run, has one word of its text.
 //
 //     # mistake the medium in small letters
 //     # place 12:10
@@ -65,7 +65,7 @@ struct Answer {
   std::vector<std::string> notes;
 };
 
-/// What is said of a scene, as `scintray check` does.
+/// The messages about a scene, as of `scintray check`.
 Answer answer_to(const std::string& text, const std::string& file) {
   Answer answer;
   answer.problems = problems_of([&] {

@@ -1,4 +1,4 @@
-// Mistakes in scene files: what is stated, where, and how to mend it.
+// Mistakes in scene files: what is stated, where, and how to correct it.
 #include <algorithm>
 
 #include "bad_input/good_scene.hpp"

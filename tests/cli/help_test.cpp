@@ -49,7 +49,7 @@ void collect(CLI::App& command, const std::string& before, std::map<std::string,
   }
 }
 
-/// The command lines of a footer, less what a shell would take and what is said behind three blanks.
+/// The command lines of a footer, less what a shell would consume and the remarks behind three blanks.
 std::vector<std::string> examples(const std::string& footer) {
   std::vector<std::string> found;
   std::istringstream lines(footer);

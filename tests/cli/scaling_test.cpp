@@ -229,7 +229,7 @@ TEST_CASE("A run that is killed, ended by signals, and resumed makes the results
       if (signal != SIGKILL) CHECK_FALSE(results::read_results(folder / "out.h5").complete());
       more = {"--resume"};
     }
-    // What there is can be looked at before the end, too.
+    // Partial results can be read before the end, too.
     check_done(run_program(
         {"merge", "out.h5.checkpoints", "--partial", "-o", "so_far.h5", "--no-report", "-q"}, folder));
     CHECK_FALSE(results::read_results(folder / "so_far.h5").complete());

@@ -1,5 +1,5 @@
 #pragma once
-/// What every entry asks of a reader and of its complaints.
+/// What every entry requires of a reader and of its messages.
 
 #include <stdexcept>
 

@@ -82,7 +82,7 @@ std::vector<Went> through_geant4(const Geant4Davis& geant4, int degree, std::uin
 }
 
 /// Histograms of cosine x azimuth, with edges at the quantiles of the larger sample. Our photons' azimuths
-/// are no finer than a cosine in single precision, so edges next to 0 say nothing.
+/// are no finer than a cosine in single precision, so edges next to 0 carry no information.
 double p_value(const std::vector<Went>& large, const std::vector<Went>& small) {
   constexpr std::size_t kCosines = 16, kAzimuths = 8;
   const auto edges = [&](auto value, std::size_t bins, double least) {

@@ -225,7 +225,7 @@ TEST_CASE("OpNovice2 fresnel: reflection, total reflection and refraction by pol
     std::uint64_t reflected = 0, total = 0, refracted = 0;
     for (std::uint64_t i = 0; i < kPhotons; ++i) {
       Rng rng(32, StreamKind::other, i);
-      // The example draws the angle, not the direction, evenly.
+      // In the example the angle is uniform, not the direction.
       const double angle = 0.5 * kPi * rng.uniform();
       Ray ray{Vec3(std::cos(angle), std::sin(angle), 0.0), Vec3::UnitZ()};
       if (run == 0) ray.polarisation = Vec3(-std::sin(angle), std::cos(angle), 0.0);
@@ -259,7 +259,7 @@ TEST_CASE("OpNovice2 coated and complexRindex: a film and aluminium reflect as i
     CHECK(sigmas(g4, {reflectance, 0.0}) < kSigmas);
   }
   // Aluminium at 4 eV around a box of air, index 1.01, of 2 m; light starts 10 cm before its +X face, with
-  // angles to X drawn evenly between 0 and 90 deg, so that some of it reaches the sides first.
+  // angles to X uniform between 0 and 90 deg, so that some of it reaches the sides first.
   const auto reflected_share = [](bool polarised_p) {
     Moments share;
     for (std::uint64_t i = 0; i < kPhotons; ++i) {

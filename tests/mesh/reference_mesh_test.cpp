@@ -5,7 +5,7 @@
 #include "scintray/mesh/import/import.hpp"
 #include "support/shared.hpp"
 
-// Meshes of public collections and what their own projects say is wrong with them.
+// Meshes of public collections and the defects that their own projects state.
 
 using namespace scintray;
 using namespace scintray::core;

@@ -43,7 +43,7 @@ std::string steps(const RepairedMesh& repaired) {
 }
 
 // Counts of open, flipped and non-manifold edges are those of the collections' own notes; volumes of sound
-// meshes are their own, those of mended ones what this repair gave when its result was looked at.
+// meshes are their own, those of repaired ones are results of this repair that were inspected.
 const Expected kMeshes[] = {
     {"assimp/BoxBadNormals.glb", "", "", true, 1, 1},
     {"assimp/Spider_ascii.stl", "72 open, 10 flipped, 317 crossing",
@@ -95,7 +95,7 @@ TEST_CASE("Meshes of public collections: what each is diagnosed as, and what rep
     CHECK(repaired.after.bodies == expected.bodies);
     if (expected.mended)
       CHECK(repaired.after.volume_mm3 == doctest::Approx(expected.volume_mm3).epsilon(1e-4));
-    // Nothing is stated to be mended that is not, and nothing changes that was sound.
+    // Nothing is reported as repaired that is not, and sound meshes do not change.
     CHECK(repaired.after.sound() == mesh_problems(repaired.after, "x").empty());
   }
 }

@@ -238,9 +238,9 @@ photons = 200_000
 }
 
 TEST_CASE("Law: integrating sphere with a port, f / (1 - rho (1 - f))") {
-  // A hollow of 20 x 24^2 triangles painted white, with one cap open. Lambertian walls of a sphere light
-  // the whole sphere evenly, so every meeting is with the port with probability f, its share of the
-  // tessellation's own area.
+  // A hollow of 20 x 24^2 triangles painted white, with one cap open. Lambertian walls of a sphere
+  // illuminate the whole sphere uniformly, so light is incident on the port with probability f, its share of
+  // the tessellation's own area.
   const auto mesh = scratch_folder("integrating_sphere") / "sphere.stl";
   write_stl(mesh, make_sphere(10.0, 24));
   const Traced traced = trace(R"(

@@ -52,8 +52,8 @@ std::string source_in(const std::string& part, int photons, const std::string& r
          "\n";
 }
 
-/// The n-th point of a sequence of four numbers that fills the unit cube evenly: multiples of powers of the
-/// root of x^5 = x + 1 (M. Roberts 2018, a generalisation of the golden ratio).
+/// The n-th point of a low-discrepancy sequence in the unit cube of four dimensions: multiples of powers of
+/// the root of x^5 = x + 1 (M. Roberts 2018, a generalisation of the golden ratio).
 std::array<double, 4> even_point(std::uint64_t n) {
   constexpr double kRoot = 1.16730397826141868426;
   std::array<double, 4> point{};
@@ -70,9 +70,9 @@ struct RodShares {
   double escaped = 0.0, detected = 0.0, absorbed = 0.0;
 };
 
-/// Shares of light made evenly in a rod with a sensor of index `sensor` at its lower end and vacuum around.
-/// The angles at the wall and at the ends stay the same through all reflections: rays are followed by these,
-/// with weights in place of chance.
+/// Shares of light emitted uniformly in a rod with a sensor of index `sensor` at its lower end and vacuum
+/// around. All reflections conserve the angles at the wall and at the ends: rays are followed by these, with
+/// weights in place of random choices.
 RodShares rod_shares(double n, double radius, double length, double absorption_length, double sensor) {
   constexpr std::uint64_t kRays = 400'000;
   RodShares sum;
@@ -142,7 +142,8 @@ sensor = "perfect"
 }  // namespace
 
 TEST_CASE("Law: light trapped for ever in a lossless ball, cos^3(tc)") {
-  // Rays of light made evenly reach the wall with a density of cosines 3 c^2: its chord, 2 R c, times c.
+  // Rays of light emitted uniformly reach the wall with a density of cosines 3 c^2: its chord, 2 R c, times
+  // c.
   const double cosine = std::sqrt(1.0 - 1.0 / (kLso * kLso));
   const Traced traced = trace(kVacuum + R"([[part]]
 name = "ball"
@@ -259,8 +260,8 @@ TEST_CASE("The light that facets let out is estimated as none without total refl
 }
 
 TEST_CASE("Law: a round fibre keeps light by its angle at the wall, meridional and skew") {
-  // Share of isotropic light made evenly over a circle whose angle of incidence at the wall is beyond the
-  // critical one: with the density 4/pi cos^2(psi) of the angle psi to the radius at the wall, sin(theta)
+  // Share of isotropic light emitted uniformly over a circle whose angle of incidence at the wall is beyond
+  // the critical one: with the density 4/pi cos^2(psi) of the angle psi to the radius at the wall, sin(theta)
   // cos(psi) < cos(tc) (A. W. Snyder and J. D. Love, Optical Waveguide Theory, section 4-10: bound and
   // tunnelling rays together).
   constexpr double kIndex = 1.5;
@@ -305,8 +306,8 @@ TEST_CASE("Law: mean chord 4V/S of exact bodies, and white walls that keep every
     const BuiltScene built = builder.build(spec);
     CHECK(built.scene.parts.front().volume_mm3 == doctest::Approx(volume).epsilon(1e-12));
     const PhotonSource source(spec.source, built.scene);
-    // White walls send isotropic light back, so that in the end photons are at the walls evenly, as Lambert's
-    // law has it; chords between reflections are then 4V/S long in the mean, with scattering or without.
+    // White walls reflect by Lambert's law, so that photons tend to a uniform distribution over the walls;
+    // chords between reflections then have the mean 4V/S, with scattering or without.
     Moments chord;
     for (std::uint64_t i = 0; i < 6'000; ++i) {
       Rng rng(21, StreamKind::photon, i);
@@ -330,8 +331,8 @@ TEST_CASE("Law: mean chord 4V/S of exact bodies, and white walls that keep every
 }
 
 TEST_CASE("Law: mean chord and escape of a cone, of a tip and of a frustum") {
-  // Light made evenly in a body of index 1 leaves evenly: only the chord is to be shown, by the method of
-  // equilibrium.
+  // Light emitted uniformly in a body of index 1 leaves it uniformly: only the chord is tested, by the method
+  // of equilibrium.
   for (const auto& [low, high, height] :
        {std::tuple{2.0, 0.0, 3.0}, std::tuple{0.5, 2.0, 1.0}, std::tuple{1.0, 1.5, 6.0}}) {
     const SceneSpec spec = scene_spec(

@@ -71,13 +71,13 @@ struct DoubleCladFibre {
                n_core);
   }
 
-  /// Share of the light at an angle theta to the axis, made evenly in the core, that is totally reflected at
-  /// the wall of the core or at that of the inner cladding.
+  /// Share of the light at an angle theta to the axis, emitted uniformly in the core, that is totally
+  /// reflected at the wall of the core or at that of the inner cladding.
   ///
   /// Refraction at walls about one axis keeps n cos(theta) and the moment n d sin(theta), d the distance of
   /// the ray's line from the axis. At a wall of radius R light is totally reflected where
-  /// (n_core cos)^2 + (n_core sin d / R)^2 is not below the square of the index beyond it. Of light made
-  /// evenly in a circle, d / core = sin(psi) with the density 4 / pi cos^2(psi).
+  /// (n_core cos)^2 + (n_core sin d / R)^2 is not below the square of the index beyond it. Of light
+  /// emitted uniformly in a circle, d / core = sin(psi) with the density 4 / pi cos^2(psi).
   double kept(double theta) const {
     const double along = n_core * std::cos(theta), across = n_core * std::sin(theta);
     const auto least = [&](double beyond, double radius) {  // sin^2(psi)
@@ -213,7 +213,7 @@ sensor = "perfect"
 
 TEST_CASE(
     "Law: an integrating sphere with a port sends out f / (1 - rho (1 - f)) of the light of its centre") {
-  // Every reflection at a white wall of a sphere spreads light evenly over the sphere: f of it, the port's
+  // Every reflection at a white wall of a sphere spreads light uniformly over the sphere: f of it, the port's
   // share of the area, leaves; the sum of a geometric series.
   constexpr double kPort = 0.1, kWhite = 0.9;
   const Traced traced = trace(kInVacuum + R"([[part]]

@@ -101,8 +101,8 @@ thickness = "0.1 mm"
 }
 
 TEST_CASE("Law: a sphere whose wall leaks, with a port") {
-  // Lambertian walls light the whole sphere evenly: every meeting is with the port with probability f, else
-  // with the wall, which lets t through, keeps r, and absorbs the rest.
+  // Lambertian walls illuminate the whole sphere uniformly: light is incident on the port with probability f,
+  // else on the wall, which transmits t, reflects r, and absorbs the rest.
   constexpr double kReflectance = 0.9, kTransmittance = 0.04;
   const Traced traced = trace(R"(
 ambient = "vacuum_n1"

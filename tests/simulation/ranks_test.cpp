@@ -120,7 +120,7 @@ TEST_CASE("A rank that takes work and hangs ends the run, with what was finished
   const auto make = [] { return simulation_of(kCrystal + kPhotons, 300'000); };
   Exchange exchange(2);
   std::atomic<bool> over{false};
-  // The other rank says that it is ready, and then nothing.
+  // The other rank reports that it is ready, and then nothing.
   std::thread other([&] {
     ThreadRanks ranks(exchange, 1);
     Simulation simulation = make();

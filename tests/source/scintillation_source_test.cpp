@@ -215,7 +215,7 @@ TEST_CASE("Cherenkov light of an absorbed gamma is that of its electrons, not of
   CHECK(std::abs(photons.mean().value - expected) < kSigmas * photons.mean().error + 0.02 * expected);
   CHECK(emitter.mean_photons(511.0) > 1.25 * photons.mean().value);
 
-  // One electron where the scene says so, and where the light does not depend on it.
+  // One electron where the scene sets it, and where the light does not depend on it.
   for (const std::string other : {"cherenkov = true\nparticle = \"electron\"\n", ""}) {
     const auto one = event_source(
         "type = \"gamma_events\"\nevents = 5\nregion = { part = \"crystal\" }\nenergy = \"511 keV\"\n" +

@@ -21,7 +21,7 @@ namespace {
 DirectionQuantiles lambertian_quantiles() {
   std::vector<ExitAngles> sample;
   constexpr int kSize = 80000;
-  // Golden-ratio steps of azimuth fill the circle evenly within any range of polar angles.
+  // Golden-ratio steps of azimuth fill the circle uniformly within any range of polar angles.
   for (int k = 0; k < kSize; ++k)
     sample.push_back({static_cast<float>(std::asin(std::sqrt((k + 0.5) / kSize))),
                       static_cast<float>(kPi * std::fmod(k * 0.6180339887498949, 1.0))});

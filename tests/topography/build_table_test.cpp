@@ -40,7 +40,7 @@ Ray arriving(Side side, double sine2, double azimuth) {
   return {{sine * std::cos(azimuth), sine * std::sin(azimuth), up * std::sqrt(1.0 - sine2)}, Vec3::Zero()};
 }
 
-/// Bins equal in sin^2, so that the cosine law fills them evenly.
+/// Bins equal in sin^2, so that the cosine law fills them equally.
 constexpr int kPolarClasses = 8, kAzimuthClasses = 4;
 int polar_class(const Vec3& d) {
   return std::min(kPolarClasses - 1, static_cast<int>(kPolarClasses * (1.0 - d.z() * d.z())));

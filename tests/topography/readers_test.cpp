@@ -26,7 +26,7 @@ std::filesystem::path written(const std::string& name, const std::string& conten
   return folder / name;
 }
 
-/// Never asks the program gwyddion, so that the answer is the same where it is installed.
+/// Never runs the program gwyddion, so that the answer is the same where it is installed.
 ReadOptions channel(const std::optional<std::string>& name = {}) {
   ReadOptions options;
   options.channel = name;

@@ -1,4 +1,4 @@
-// Histories of detected photons against what the photons themselves say.
+// Histories of detected photons against the photons themselves.
 #include "physics/traced.hpp"
 #include "scintray/tally/photon_history.hpp"
 

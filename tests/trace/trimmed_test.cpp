@@ -503,7 +503,7 @@ TEST_CASE("The grid of a face with many trims answers as they do") {
     const TrimmedFace without = face;
     exact.build_trim_grid(face);
     REQUIRE(face.grid != kNoSurface);
-    // Few are left to ask, and some boxes are beyond the face.
+    // Few are left to be tested, and some boxes are beyond the face.
     const double asked = static_cast<double>(exact.asked_trims.size()), boxes = exact.trim_boxes.size();
     CHECK(asked < 3.0 * boxes);
     CHECK(std::any_of(exact.trim_boxes.begin(), exact.trim_boxes.end(),

@@ -10,7 +10,7 @@
 ///     {"kinds_of": [["", "src/scintray/optics/fresnel_laws.hpp", "scintray::transport::step()"]]}
 ///     {"kinds": ["surface"]}
 ///
-/// The second request calibrates: the work that takes that time on one thread. The fourth asks for the kinds
+/// The second request calibrates: the work that takes that time on one thread. The fourth requests the kinds
 /// of work of places: library (empty: the program itself), source file, and the function that it is compiled
 /// into. The first two may have a "lane_width". A request that fails is answered with {"error": "why"}. These
 /// lines are how binaries of different revisions compare, so that a key may be added, but none may change its

@@ -82,7 +82,7 @@ def off_of_box(divisions, half=(1, 1, 10)):
 
 
 def write(row, folder, for_other=False):
-    """Writes the scene of a row, for another version where that is said; the path. Raises ValueError for a scene that
+    """Writes the scene of a row, for another version where that is given; the path. Raises ValueError for a scene that
     has not the texts to be changed."""
     folder = Path(folder)
     text = (SCENES / row.file).read_text(encoding="utf-8")
@@ -100,7 +100,7 @@ def write(row, folder, for_other=False):
 
 
 class Refused(Exception):
-    """What a program said of a scene that it does not run."""
+    """The message of a program on a scene that it does not run."""
 
 
 @dataclasses.dataclass

@@ -10,7 +10,7 @@
 
 namespace scintray::analysis {
 
-/// Meaning of a field: its unit ("1": a count, a share or an index; empty: text), and in words.
+/// Meaning of a field: its unit ("1": a count, a share or an index; empty: text) and a description.
 struct FieldMeaning {
   const char* name;
   const char* unit;
@@ -39,7 +39,7 @@ class FieldSink {
 };
 
 /// Passes every number of an analysis to a sink, with its standard error as the next field (`NAME_error`),
-/// and the reasons of what is missing as the texts `left_out`.
+/// and the reasons for missing results as the texts `left_out`.
 /// @param parts  names of the parts of the run
 void list_fields(const EventAnalysis& analysis, const core::IdVector<core::PartId, std::string>& parts,
                  FieldSink& sink);

@@ -78,7 +78,7 @@ struct EventAnalysis {
   std::optional<TimingBound> orders_bound;  ///< in step with `orders->single`
   std::vector<OrderSlice> orders_against_depth;
   std::vector<std::optional<TimingBound>> depth_bounds;  ///< in step with `orders_against_depth`
-  /// "flood map: why not", for each analysis that has no result: "light against depth", "flood map", "depth
+  /// "flood map: REASON", for each analysis that has no result: "light against depth", "flood map", "depth
   /// of interaction", "timing", "timing by order of photons".
   std::vector<std::string> left_out;
 };
@@ -97,8 +97,8 @@ class EventCollector {
   /// Sets AnalysisSetup::light_timing, where that is known after the events only.
   void set_light_timing(std::optional<tally::LightTiming> timing) { setup_.light_timing = std::move(timing); }
   EventAnalysis finish() const;
-  /// Light, photopeak and timing alone, without spectra and what is by part or depth: for what is evaluated
-  /// again and again while events come.
+  /// Light, photopeak and timing only, without spectra and results by part or depth: for repeated evaluation
+  /// during a run.
   EventAnalysis finish_figures() const;
 
  private:
@@ -111,7 +111,7 @@ class EventCollector {
   };
   void add_light(const tally::EventRecord& event, Row& row) const;
   void add_times(const tally::EventRecord& event, Row& row) const;
-  /// The numbers of events and pulses alone.
+  /// The numbers of events and pulses only.
   EventAnalysis counted() const;
   /// Photopeak of the light of pulses; the error of its content is that of a share of all events.
   Photopeak peak_of(const std::vector<double>& light) const;
@@ -139,7 +139,7 @@ class EventCollector {
   bool has_readout_ = false;
 };
 
-/// The same for events in memory.
+/// Analysis of events in memory. Throws as EventCollector.
 EventAnalysis analyze_events(std::span<const tally::EventRecord> events, const AnalysisSetup& setup);
 
 /// The point of a sweep in a depth curve: mean depth, and the photopeak where a fit locates it, else the

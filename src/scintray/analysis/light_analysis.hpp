@@ -1,7 +1,7 @@
 #pragma once
 /// Light from the tallies of a result: crosstalk, light spread, divergence, etendue.
 ///
-/// With a source of photons errors are those of independent photons, by the formula that each states. With an
+/// With a source of photons errors are those of independent photons, by the formula stated at each. With an
 /// event source they are those of independent events, by the jackknife over groups of events
 /// (core::jackknife_error, tally::TallyResult::group_sums); of a result without such sums, or where a group
 /// has all the light, those of independent photons.
@@ -42,7 +42,7 @@ struct CrossingAngles {
 /// Of all exit angle tallies of a point, in their order.
 std::vector<CrossingAngles> crossing_angles(const tally::PointResult& point);
 /// The tallies whose crossings they are. Each crossing counts as a photon of its own: the sums of
-/// squares ignore that several crossings may be of one photon.
+/// squares neglect that several crossings may be of one photon.
 std::vector<tally::TallyResult> tallies_of(const CrossingAngles& angles);
 
 /// Half-angles of the cones about the normal that contain a share of the light.
@@ -53,9 +53,10 @@ struct Divergence {
   std::uint64_t photons = 0;
 };
 
-/// Divergence from a histogram over equal bins of 0 to 90 deg, even within each bin. The error of a quantile
-/// is sqrt(q (1 - q) / N) over the density there (Kendall & Stuart, The Advanced Theory of Statistics, vol.
-/// 1, section 10.10), with half a bin's width divided by sqrt(3) for the binning, in quadrature.
+/// Divergence from a histogram over equal bins of 0 to 90 deg, uniform within each bin. The error of a
+/// quantile is sqrt(q (1 - q) / N) over the density there (Kendall & Stuart, The Advanced Theory of
+/// Statistics, vol. 1, section 10.10), with half a bin's width divided by sqrt(3) for the binning, in
+/// quadrature.
 /// @param groups  the histograms of groups of events, tally::TallyResult::group_sums; empty: the photons are
 ///                independent
 Divergence divergence(const std::vector<std::uint64_t>& counts, const std::vector<double>& groups = {});
@@ -65,7 +66,7 @@ struct LightSpread {
   double centre_mm[2] = {0.0, 0.0};
   double centre_error_mm[2] = {0.0, 0.0};
   double rms_mm[2] = {0.0, 0.0};   ///< about the centre, of pixel centres
-  double fwhm_mm[2] = {0.0, 0.0};  ///< of the sums across the other direction, linear between pixels
+  double fwhm_mm[2] = {0.0, 0.0};  ///< of the sums over the other direction, linear between pixels
   double photons = 0.0;
 };
 
@@ -84,11 +85,12 @@ struct Etendue {
 ///
 ///     G = (integral of L dG)^2 / integral of L^2 dG
 ///
-/// with L the radiance divided by n^2 and dG = n^2 dA dOmega cos(theta). Light of one radiance fills
-/// exactly its G, and since neither L / n^2 nor dG change along rays in lossless smooth optics
+/// with L the radiance divided by n^2 and dG = n^2 dA dOmega cos(theta). Light of constant L has exactly
+/// the G that it fills, and since neither L nor dG changes along rays in lossless smooth optics
 /// (Liouville; R. Winston et al., Nonimaging Optics, 2005, section 2.6 and appendix A), neither does G.
-/// Bins, equal in dG, blur: G is never less than a bin's and is overestimated where L varies within bins.
-/// The integral of L^2 is estimated without bias from pairs of photons, n (n - 1) a bin; its error is
+/// Bins, equal in dG, limit the resolution: G is at least that of a bin, and overestimated where L varies
+/// within bins.
+/// The integral of L^2 is estimated without bias from pairs of photons, n (n - 1) per bin; its error is
 /// that of a U-statistic (W. Hoeffding 1948, Ann. Math. Statist. 19, 293).
 /// @throws InputError when the tally is of another type, or in a medium without a single index.
 Etendue read_etendue(const tally::TallyResult& tally);

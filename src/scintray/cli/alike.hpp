@@ -1,5 +1,5 @@
 #pragma once
-/// Output lines that share one line.
+/// Items of output that share one line.
 
 #include <cstddef>
 #include <map>

@@ -9,8 +9,9 @@
 
 namespace scintray::cli {
 
-/// Text of a scene's parts, faces, regions, interfaces, and the parts that touch. Parts whose names differ by
-/// numbers only (crystal[1,2], pad7) and that agree in the content of a line share one, unless `every_one`.
+/// Prints a scene's parts, faces, regions, interfaces, and the parts that touch. Parts whose names differ
+/// only by numbers (crystal[1,2], pad7) and that agree in the content of a line share one, unless
+/// `every_one`.
 void print_scene(const scene::BuiltScene& built, bool every_one);
 
 /// The parts of a scene as far as they can be placed, also with errors.

@@ -76,7 +76,7 @@ std::string full_name(const CLI::App& command) {
   return (command.get_parent() ? full_name(*command.get_parent()) + " " : "") + command.get_name();
 }
 
-/// What is wrong with a command line, in words of its writer.
+/// The error of a command line, in terms of what was typed.
 std::string usage_text(const CLI::ParseError& error) {
   const std::string text = error.what();
   const std::size_t of = text.find(": "), missing = text.rfind(" missing");

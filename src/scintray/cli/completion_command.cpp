@@ -25,7 +25,7 @@ std::string words_after(const CLI::App& command) {
   return words;
 }
 
-/// A line for each command: what may follow "scintray table build".
+/// A line for each command, with the words that may follow it, as "scintray table build".
 std::string bash_cases(const CLI::App& command, const std::string& before) {
   const std::string line = before.empty() ? command.get_name() : before + " " + command.get_name();
   std::string cases = fmt::format("    \"{}\") words=\"{}\" ;;\n", line, words_after(command));
@@ -33,8 +33,8 @@ std::string bash_cases(const CLI::App& command, const std::string& before) {
   return cases;
 }
 
-/// Completion for bash, which zsh reads as well: the words of the command so far, less options and their
-/// values, say which command it is; what is no word of it is a file.
+/// Completion for bash, which zsh reads as well: the words of the command so far, without options and their
+/// values, determine the command; any other word is completed as a file.
 std::string bash_script(const CLI::App& app) {
   // clang-format off
   return R"bash(_scintray() {

@@ -9,7 +9,7 @@
 
 namespace scintray::cli {
 
-/// Most that may be counted: 1e15 photons at 1e6 a second on each of 1000 cores are 12 days.
+/// Largest count: 1e15 photons at 1e6 per second on each of 1000 cores take 12 days.
 inline constexpr double kMostCounted = 1e15;
 
 /// Check that an option's value is a number above zero, and no more than kMostCounted; otherwise a usage

@@ -47,7 +47,7 @@ std::string other_places(const Kind& kind) {
   return named < lines.size() ? text + " and " + std::to_string(lines.size() - named) + " more" : text;
 }
 
-/// The message of a problem, with the code of its kind behind what was found.
+/// The message of a problem, with the code of its kind after the finding.
 std::string message(core::Problem problem) {
   problem.what += std::string(" [") + input_error_code(problem.what, problem.hint) + "]";
   return problem.text();

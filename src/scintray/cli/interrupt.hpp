@@ -1,5 +1,5 @@
 #pragma once
-/// Ctrl-C, and the signals by which systems end programs, as a request to stop and to keep the result so far.
+/// Ctrl-C, and the signals by which systems end programs, as a request to stop and keep the partial result.
 
 #include <atomic>
 
@@ -15,9 +15,9 @@ class InterruptGuard {
   InterruptGuard& operator=(const InterruptGuard&) = delete;
 
   static const std::atomic<bool>& requested();
-  /// States whether there is a result to keep. Where there is none, as from the beginning, while a scene is
-  /// read and built, a signal ends the program with exit code kInterrupted after two seconds, if it has not
-  /// ended by then.
+  /// Sets whether there is a result to keep. Where there is none, as at first while a scene is read and
+  /// built, a signal ends the program with exit code kInterrupted after two seconds, if it has not ended by
+  /// then.
   static void keeps_results(bool keeps);
 };
 

@@ -17,8 +17,8 @@ using Json = nlohmann::ordered_json;
 /// Adds `--json` to a command.
 void add_json_flag(CLI::App& command, bool& wanted);
 
-/// The answer of a command. While it lives and JSON is wanted, what the command prints for people goes to
-/// standard error.
+/// The JSON output of a command. During its lifetime, if JSON is wanted, the text that the command prints for
+/// people goes to standard error.
 class JsonAnswer {
  public:
   explicit JsonAnswer(bool wanted);
@@ -26,8 +26,8 @@ class JsonAnswer {
   JsonAnswer(const JsonAnswer&) = delete;
   JsonAnswer& operator=(const JsonAnswer&) = delete;
 
-  /// Prints the value on standard output, if JSON is wanted; else nothing is computed. Text that is not UTF-8
-  /// has U+FFFD in place of what is not.
+  /// Prints the value on standard output, if JSON is wanted; otherwise it is not computed. Bytes that are not
+  /// UTF-8 are replaced by U+FFFD.
   void print(const std::function<Json()>& value) const;
   /// The same for a value that is JSON text already.
   void print_text(const std::function<std::string()>& text) const;

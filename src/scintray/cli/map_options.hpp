@@ -12,7 +12,7 @@ namespace scintray::cli {
 /// A length such as "0.175 um", in um. InputError when it is not a length.
 double length_um(const std::string& text);
 
-/// Options of the reader, which complete the file.
+/// Options of the reader, which supplement the file.
 struct MapOptions {
   std::string map, channel, pitch, width, unit;
   bool periodic = false;
@@ -30,7 +30,7 @@ struct PreparationOptions {
   bool fill = false;
 };
 void add_preparation_options(CLI::App& app, PreparationOptions& options);
-/// The preparation. InputError on words that are not one.
+/// The preparation. InputError for invalid values of options.
 topography::Preparation preparation_of(const PreparationOptions& options);
 
 }  // namespace scintray::cli

@@ -27,7 +27,7 @@ struct MergeOptions {
   bool json = false;
 };
 
-/// Files of all parts; a folder stands for the checkpoints in it.
+/// Files of all parts; a folder means the checkpoints in it.
 std::vector<std::filesystem::path> files_of(const std::vector<std::filesystem::path>& parts) {
   std::vector<std::filesystem::path> files;
   for (const std::filesystem::path& part : parts) {

@@ -122,7 +122,7 @@ class MpiRanks : public simulation::Ranks {
 
   int rank_ = 0, size_ = 1;
   bool closed_ = false;
-  std::list<Sent> sent_;                 ///< on their way: their addresses must stay
+  std::list<Sent> sent_;                 ///< in transit: their addresses must not change
   std::vector<std::string> unfinished_;  ///< by rank: the pieces of a message so far
 };
 

@@ -12,7 +12,7 @@ namespace scintray::cli {
 int launched_processes();
 
 /// The ranks of this process's MPI_COMM_WORLD. MPI is initialised by the first call of a process that a
-/// launcher started with others, and else never, so that a process alone pays nothing for it.
+/// launcher started with others, and otherwise never, so that a single process has no overhead.
 /// @return null for a process alone
 /// @throws SystemError when MPI cannot be initialised, or when this program was built without it
 std::unique_ptr<simulation::Ranks> mpi_ranks();

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A scene to begin with: a file of scenes/templates, whose first line says in a comment what it is.
+/// A template of a scene: a file of scenes/templates, whose first line describes it in a comment.
 struct SceneTemplate {
   std::string name;
   fs::path file;

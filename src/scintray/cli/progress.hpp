@@ -14,7 +14,7 @@
 
 namespace scintray::cli {
 
-/// Where progress is shown, and the clock that it goes by.
+/// Output of progress, and its clock.
 struct ProgressOutput {
   using Clock = std::chrono::steady_clock;
   bool terminal = false;
@@ -25,8 +25,8 @@ struct ProgressOutput {
   static ProgressOutput standard();
 };
 
-/// Progress of the work, with rate and time left: one line that is updated on a terminal; elsewhere, as in a
-/// log, a line of its own once a minute. Threads may share one.
+/// Progress of the work, with rate and time left: one line that is updated on a terminal; elsewhere, such as
+/// in a log, a new line once a minute. Threads may share one.
 class ProgressLine {
  public:
   /// Silent unless `wanted`.
@@ -38,8 +38,8 @@ class ProgressLine {
   /// Shows `done` of `total` items, at most ten times a second on a terminal and once a minute elsewhere;
   /// only `what` when `total` is 0. `what` comes first, such as "point 3/15".
   void show(const std::string& what, double done, double total, const std::string& thing);
-  /// Shows the latest line again when it is due, with how long that step has taken so far: work that
-  /// reports nothing has not ended. Nothing before the first show() or after clear().
+  /// Shows the latest line again when it is due, with the time that the step has taken so far, during work
+  /// that reports nothing. Nothing before the first show() or after clear().
   void repeat();
   /// Removes the line from a terminal.
   void clear();

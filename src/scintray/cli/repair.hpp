@@ -1,5 +1,5 @@
 #pragma once
-/// Repair of one mesh file or of the meshes of a scene, with the text about it.
+/// Repair of one mesh file or of the meshes of a scene, with its report.
 
 #include <filesystem>
 #include <functional>
@@ -29,7 +29,7 @@ using RepairReport = std::function<void(const std::filesystem::path& file, const
 const char* lossless_ending(const std::filesystem::path& in, const mesh::ImportOptions& options);
 
 /// Repairs the mesh of every part into the folder `out` and writes a copy of the scene there that names the
-/// repaired files; other files keep their places, and relative paths to them are rewritten. Meshes named only
+/// repaired files; other files are not moved, and relative paths to them are rewritten. Meshes named only
 /// in a sweep are unchanged. Returns whether every mesh is sound now.
 /// @param report  called for each mesh
 /// @throws InputError for a scene that is not TOML or a mesh that cannot be read

@@ -37,7 +37,7 @@ std::filesystem::path temporary_folder() {
   return name;
 }
 
-/// The folder of the checkpoints that a name stands for; empty for a results file.
+/// The folder of the checkpoints that a name refers to; empty for a results file.
 std::filesystem::path checkpoints_of(const std::filesystem::path& named) {
   std::error_code ignored;
   if (std::filesystem::is_directory(named, ignored)) return named;

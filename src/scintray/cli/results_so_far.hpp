@@ -1,17 +1,17 @@
 #pragma once
-/// Results of a run that goes on, or was stopped, from its checkpoints.
+/// Results of a run in progress, or of one that was stopped, from its checkpoints.
 
 #include <filesystem>
 
 namespace scintray::cli {
 
-/// A results file to read: that of a finished run, or one made of the checkpoints of a run that goes on, in a
-/// temporary folder that lasts as long as this.
+/// A results file to read: that of a finished run, or one made from the checkpoints of a run in progress, in
+/// a temporary folder with the lifetime of this object.
 class ReadableResults {
  public:
-  /// @param named  a results file; where there is none, but NAME.checkpoints beside it, or where this is such
-  ///               a folder, what the run has finished so far, without its lists of photons and histories
-  /// @throws InputError for checkpoints that are damaged, or none; SystemError when the temporary folder
+  /// @param named  a results file; where there is none but a folder NAME.checkpoints beside it, or where this
+  ///               is such a folder, the finished part of the run, without its photon lists and histories
+  /// @throws InputError for damaged or missing checkpoints; SystemError when the temporary folder
   ///         cannot be written
   explicit ReadableResults(const std::filesystem::path& named);
   ReadableResults(const ReadableResults&) = delete;
@@ -19,7 +19,7 @@ class ReadableResults {
   ~ReadableResults();
 
   const std::filesystem::path& path() const { return path_; }
-  /// The results file that the run will write: what pages are named by.
+  /// The results file that the run will write, after which pages are named.
   const std::filesystem::path& finished() const { return finished_; }
 
  private:

@@ -13,20 +13,19 @@ namespace scintray::cli {
 /// Throws InputError before a run for acceptance criteria about curves that the scene does not have.
 void check_criteria(const scene_file::SceneFile& scene);
 
-/// Analyses of the file's events, with the [analysis] and the acceptance criteria of the scene that the run
-/// is of.
+/// Analyses of the file's events, with the [analysis] and the acceptance criteria of the scene of the run.
 report::RunAnalysis analysis_of(const std::filesystem::path& results, const tally::RunResult& run);
 
 /// Adds the option --no-view.
 void add_no_view_flag(CLI::App& command, bool& no_view);
 
-/// What a command shows of results that it has written.
+/// Parts of the output of a command that has written results.
 struct ShownResults {
   bool summary = true, page = true;
   bool view = true;  ///< the page has the scene in three dimensions
 };
 
-/// Prints the path of results, with the summary and the page of the run as far as they are wanted. Returns
+/// Prints the path of results, with the summary and the page of the run if they are wanted. Returns
 /// the analyses.
 report::RunAnalysis show_results(const std::filesystem::path& results, const tally::RunResult& run,
                                  const ShownResults& shown);

@@ -115,7 +115,7 @@ simulation::SimulationHooks simulation_hooks(ProgressLine& line) {
   return hooks;
 }
 
-/// Prints what `scintray check` says of the scene's first point, on standard error.
+/// Prints the findings of `scintray check` on the scene's first point to standard error.
 void say_before_tracing(simulation::Simulation& simulation, const scene_file::SceneFile& file,
                         ProgressLine& line) {
   const std::shared_ptr<const simulation::SimulationPoint> first = simulation.point(0);
@@ -131,7 +131,8 @@ void say_before_tracing(simulation::Simulation& simulation, const scene_file::Sc
   throw CLI::RuntimeError(kInterrupted);
 }
 
-/// Traces into a sink, with checkpoints. What is finished outlasts a failure of the system, as a full disk.
+/// Traces into a sink, with checkpoints. Finished blocks survive a failure of the system, such as a full
+/// disk.
 tally::RunResult trace(const RunOptions& options, simulation::Simulation& simulation,
                        simulation::ResultSink& sink, const std::filesystem::path& output,
                        ProgressLine& line) {
@@ -154,8 +155,8 @@ tally::RunResult trace(const RunOptions& options, simulation::Simulation& simula
   }
 }
 
-/// What the scenes of a command answer as JSON: of one scene its value, of several a list, to which each is
-/// added as soon as it was run.
+/// The JSON output of a command: of one scene its value, of several a list, to which each is added as soon as
+/// it has been run.
 class Answers {
  public:
   explicit Answers(const RunOptions& options) : several_(options.scenes.size() > 1), answer_(options.json) {
@@ -205,7 +206,7 @@ void run_scene(const RunOptions& options, const std::filesystem::path& scene, An
   if (!result.complete()) end_stopped("the results are partial and marked so", !options.no_checkpoints);
 }
 
-/// Traces what rank 0 hands out. Nothing is printed or written here: rank 0 does.
+/// Traces the blocks assigned by rank 0, which alone prints and writes.
 void serve_scene(const RunOptions& options, const std::filesystem::path& scene) {
   InterruptGuard::keeps_results(false);
   ProgressLine line(false);
@@ -232,7 +233,7 @@ void run_on_ranks(const RunOptions& options) {
 
 /// Throws CLI::ValidationError when two scenes would write to one results file.
 void require_own_outputs(const RunOptions& options) {
-  std::map<std::filesystem::path, std::filesystem::path> scenes;  // by what they write
+  std::map<std::filesystem::path, std::filesystem::path> scenes;  // by their output
   for (const auto& scene : options.scenes) {
     const auto output = output_path(options, scene, scene_file::SceneFile::load(scene));
     const auto [other, is_new] = scenes.try_emplace(std::filesystem::weakly_canonical(output), scene);

@@ -12,11 +12,11 @@ class SceneText {
  public:
   explicit SceneText(const std::string& text);
 
-  /// Replaces the content of a string. Throws InputError for a string with escapes, which is not found as it
-  /// is written.
+  /// Replaces the content of a string. Throws InputError for a string with escapes, whose text differs from
+  /// its content.
   void replace(const config::TomlNode& string, const std::string& content);
 
-  /// True when a member of a table, with all that is in it, is on lines of its own.
+  /// True when a member of a table, with its content, is on lines of its own.
   bool on_lines_of_its_own(const config::TomlNode& member) const;
   /// Comments out the lines of such a member.
   void comment_out(const config::TomlNode& member);

@@ -1,5 +1,5 @@
 #pragma once
-/// The scene of a run as pages show it in three dimensions.
+/// The scene of a run in three dimensions, for pages.
 
 #include <filesystem>
 #include <vector>
@@ -10,11 +10,11 @@
 
 namespace scintray::cli {
 
-/// Parts of a scene as a view has them. The meshes stay where they are.
+/// Parts of a scene for a view, which refers to the meshes without copying them.
 std::vector<report::ViewPart> view_parts(const std::vector<contact::PlacedMesh>& placed);
 
-/// The scene of results, made again from the scene file in them: parts placed as the scene has them, with the
-/// recorded paths of the first point.
+/// The scene of results, built from the scene file in them: the placed parts, with the recorded paths of the
+/// first point.
 struct SceneOfResults {
   std::vector<contact::PlacedMesh> placed;  ///< to whose meshes `view` points
   report::RunView view;                     ///< without a view, but a reason, where meshes are not available

@@ -24,7 +24,7 @@ using config::KeyUse;
 using config::TableSchema;
 using Form = config::KeyUse::Form;
 
-/// The tables of definitions in a scene, each with what one definition of it is called here.
+/// The tables of definitions in a scene.
 constexpr const char* kDefinitions[] = {"media", "surfaces", "sensors", "reflectors"};
 
 std::string definition_path(const std::string& tables) { return tables + ".NAME"; }

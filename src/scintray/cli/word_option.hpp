@@ -13,7 +13,7 @@ namespace scintray::cli {
 inline constexpr core::Word<optics::Side> kSideWords[] = {{"inside", optics::Side::inside},
                                                           {"outside", optics::Side::outside}};
 
-/// An option whose words stand for values; help lists them, and another word is a usage error.
+/// An option whose words represent values; help lists them, and another word is a usage error.
 /// @param target  receives the value, must outlive the parsing: a T or an optional T
 template <typename T, std::size_t N, typename Target>
 CLI::Option* add_word_option(CLI::App& app, const std::string& name, Target& target,

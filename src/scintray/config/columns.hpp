@@ -1,5 +1,5 @@
 #pragma once
-/// Columns of numbers in the files of other programs: CSV, HDF5 and NumPy.
+/// Columns of numbers in files of other programs: CSV, HDF5 and NumPy.
 
 #include <cstdint>
 #include <filesystem>
@@ -40,7 +40,7 @@ struct Columns {
 /// Columns of a file by their names, in the order of the names. In a NumPy array without fields a name is the
 /// number of the column, from 0; axes after the first count as one, the last fastest.
 /// @param names  an empty one requests no column
-/// @throws InputError for a column that is not there, columns of unequal length, and damaged files
+/// @throws InputError for a missing column, columns of unequal length, and damaged files
 Columns read_columns(const ColumnFile& file, const std::vector<std::string>& names);
 
 }  // namespace scintray::config

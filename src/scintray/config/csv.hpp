@@ -24,8 +24,8 @@ struct CsvTable {
   std::size_t column(const std::string& name, std::size_t standard, const core::FileLocation& where) const;
 };
 
-/// Table of the comma-separated numbers in a file, a row a line. The first row may be a heading; empty lines
-/// and lines that start with # are skipped. Throws InputError with every row that is wrong.
+/// Table of the comma-separated numbers in a file, one row per line. The first row may be a heading; empty
+/// lines and lines that start with # are skipped. Throws InputError with every row that is wrong.
 CsvTable read_csv(const std::filesystem::path& path);
 
 }  // namespace scintray::config

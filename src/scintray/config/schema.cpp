@@ -63,7 +63,7 @@ TomlNode sample(const KeyUse& use) {
   return list;
 }
 
-/// What a reader used at one key, and what of it may stand in a document.
+/// The uses of one key by a reader, and the samples of it that a document may contain.
 struct Known {
   std::string table, key;
   Settings beside;  ///< of the first document in which it was used
@@ -164,7 +164,7 @@ class Explorer {
     return found;
   }
 
-  /// To look whether a key with a value is there is no use of it.
+  /// Testing whether a key with a value is present is no use of it.
   void note_use(Known& known, const KeyUse& use) const {
     if (use.form != Form::present || known.of_no_form()) known.last_use = reading_;
   }
@@ -299,7 +299,7 @@ class Explorer {
       const auto here = settings.find(at);
       if (here == settings.end() || here->second != label) return std::nullopt;
     }
-    // A key of a group gives way to another that is set.
+    // A key of a group is absent where another of the group is set.
     for (const Group& group : tables_.at(known.table).groups) {
       if (std::find(group.keys.begin(), group.keys.end(), known.key) == group.keys.end()) continue;
       for (const std::string& other : group.keys) {

@@ -1,5 +1,6 @@
 #pragma once
-/// Which keys a reader of TOML knows, what it accepts at each, and beside which others: found by running it.
+/// The keys that a reader of TOML accepts, the accepted forms of each, and the keys on which it depends:
+/// determined by running the reader.
 
 #include <functional>
 #include <map>
@@ -18,7 +19,7 @@ struct KeySchema {
   std::string fallback;            ///< the value of an absent key, as text; empty: none, or not a constant
   bool required = false;           ///< wherever its table is read
   std::vector<std::string>
-      beside;  ///< keys and values without which it is not read, as `source.type = "photons"`
+      beside;  ///< keys and values required for it to be read, as `source.type = "photons"`
 };
 
 /// One table.
@@ -32,10 +33,10 @@ struct TableSchema {
 /// Runs a reader on a document and returns its TomlTable::key_uses().
 using DocumentReader = std::function<std::vector<KeyUse>(const TomlNodePtr& document)>;
 
-/// The tables that a reader knows, found by giving it documents until it uses no key that it had not used
-/// before: first one with every known key, then for each key one with each other form, word and group that
-/// the reader accepts there, and one without the key. The readers are the only list of keys; a key that is
-/// read only beside two unusual values of others that do not lead to each other is not found.
+/// The tables that a reader accepts, determined by running it on documents until it uses no new key: first
+/// one with every known key, then for each key one with each other form, word and group that the reader
+/// accepts there, and one without the key. The readers are the only list of keys; a key that is read only in
+/// combination with two unusual, independent values of other keys is not found.
 ///
 /// @param root  path of the outermost table, as "media.NAME"; empty for a whole document
 std::vector<TableSchema> explore_keys(const DocumentReader& reader, const std::string& root = "");

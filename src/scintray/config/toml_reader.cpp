@@ -23,7 +23,7 @@ struct TomlTable::Session {
   struct Marks {
     TomlNodePtr node;
     std::string path;
-    bool absent = false;  ///< stands for a missing table, for which no further problem is reported
+    bool absent = false;  ///< represents a missing table, for which no further problem is reported
     std::set<std::string> known, read, bad;
   };
   core::Problems* problems = nullptr;
@@ -164,7 +164,7 @@ const TomlNode* TomlTable::read(const std::string& key, bool required) const {
   return value;
 }
 
-// What stands in the place of a key that is needed is stated where it is known.
+// The hint for a missing required key has the form of its value, where the type is known.
 
 double TomlTable::quantity(const std::string& key, core::Dimension dimension) const {
   if (!node_->find(key) && !session_->of(node_, path_).absent) {

@@ -6,7 +6,7 @@
 ///     const double density = table.quantity("density", Dimension::density);
 ///     table.expect("density", density > 0.0, "a density must be positive");
 ///     const Curve index = table.curve("index", Dimension::dimensionless);
-///     table.finish();           // keys that nobody read are problems
+///     table.finish();           // keys that were not read are problems
 ///     problems.throw_if_any();
 
 #include <cstdint>
@@ -60,10 +60,10 @@ TomlNodePtr parse_toml_file(const std::filesystem::path& path);
 /// The content of a text file. Throws InputError, at `where` if that is given, when it cannot be read.
 std::string read_text_file(const std::filesystem::path& path, const core::FileLocation& where = {});
 
-/// One way in which a reader uses a key: what it accepts there. A key may have several, of different forms.
+/// One use of a key by a reader: the form that it accepts. A key may have several uses, of different forms.
 struct KeyUse {
   enum class Form {
-    present,  ///< only whether it is there
+    present,  ///< only its presence
     raw,      ///< the value as written
     text,     ///< one of `words` where there are any
     file,     ///< the name of a file
@@ -122,7 +122,7 @@ class TomlTable {
   std::size_t problem_count() const;
   /// Adds a problem unless `ok`. Does nothing when the key is absent or already has a problem.
   void expect(const std::string& key, bool ok, const std::string& what, const std::string& hint = {}) const;
-  /// The one of `choices` that is present. None (when required) and more than one are problems.
+  /// The key of `choices` that is present. None (when required) and more than one are problems.
   std::optional<std::string> one_of(const std::vector<std::string>& choices, bool required) const;
   /// The value of the key that is present; nullptr when none is.
   template <typename T, std::size_t N>
@@ -158,7 +158,7 @@ class TomlTable {
   std::string choice(const std::string& key, const std::vector<std::string>& allowed) const;
   std::string choice(const std::string& key, const std::vector<std::string>& allowed,
                      const std::string& fallback) const;
-  /// The value that one of the words stands for; that of the first when wrong.
+  /// The value of one of the words; that of the first when wrong.
   template <typename T, std::size_t N>
   T choice(const std::string& key, const core::Word<T> (&words)[N]) const {
     return core::find_word(words, choice(key, core::word_list(words))).value_or(words[0].value);
@@ -252,7 +252,7 @@ class TomlTable {
 };
 
 /// Path of the first key that only one document has or whose values differ as written, such as
-/// "part.crystal.surface"; empty when there is none. The order of keys does not count, that of arrays does.
+/// "part.crystal.surface"; empty when there is none. The order of keys is ignored, that of arrays is not.
 /// @param besides  keys of the outermost table that are left out, with all in them
 [[nodiscard]] std::string first_difference(const TomlNode& a, const TomlNode& b,
                                            const std::vector<std::string>& besides);

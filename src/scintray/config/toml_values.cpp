@@ -14,7 +14,7 @@ namespace {
 
 using Kind = TomlNode::Kind;
 
-/// The whole number that a value stands for, else an example.
+/// The whole number that a value represents, else an example.
 std::string whole_number(const TomlNode& value) {
   constexpr double kLargest = 9007199254740992.0;  // 2^53: every smaller one is exact
   double number = value.number;

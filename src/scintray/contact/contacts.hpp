@@ -47,8 +47,8 @@ struct InterfaceTriangle {
 /// Interfaces between the regions of touching and nested parts.
 ///
 /// Coplanar faces of different parts closer than `tolerance_mm` (and parallel within it over their
-/// extent) are overlaid exactly: where they overlap, one set of triangles separates the two parts;
-/// elsewhere each borders the region around it. Nested parts border the innermost part around them;
+/// extent) are overlaid with exact predicates: where they overlap, one set of triangles separates the two
+/// parts; elsewhere each borders the region around it. Nested parts border the innermost part around them;
 /// flush nested faces are handled. The triangles of every region together form its closed boundary.
 ///
 /// @param parts  the i-th has the id i

@@ -135,7 +135,7 @@ struct Cutters {
   }
 };
 
-/// Gives the triangles that are left of a cut the support surfaces of those that they are pieces of.
+/// Assigns to the triangles left by a cut the support surfaces of those that they are pieces of.
 void keep_supports(const std::vector<mesh::TriangleOrigin>& origins, const mesh::TriMesh& of,
                    const Cutters& by, mesh::TriMesh& left) {
   left.supports.clear();

@@ -1,5 +1,5 @@
 #pragma once
-/// Adjacent placed parts: where they touch, closing curved contacts, cutting intended overlaps, finding small
+/// Adjacent placed parts: touching triangles, closing of curved contacts, cutting of intended overlaps, small
 /// gaps.
 
 #include <string>
@@ -17,11 +17,11 @@ struct ConformingContact {
   core::FileLocation where;
 };
 
-/// Closes curved contacts: of every contact, one part gets the faces of the other where both lie within that
+/// Closes curved contacts: in every contact, one part takes the faces of the other where both lie within that
 /// tolerance of each other, facing each other.
 ///
-/// Two tessellations of one curved surface leave slivers, now gap, now overlap. One part takes all of
-/// them: its facing triangles are pushed into the other part by twice the tolerance, along the part's
+/// Two tessellations of one curved surface leave slivers, alternately gaps and overlaps. One part takes all
+/// of them: its facing triangles are pushed into the other part by twice the tolerance, along the part's
 /// neighbouring faces, and the other part is then cut out of it, pushed outwards itself where it ends
 /// flush. So the contact is the other part's own triangles, and nothing moves by more than the tolerance, or
 /// twice that at a sharp rim. The first part keeps its shape, unless only it is covered by
@@ -37,7 +37,7 @@ struct ConformingContact {
 void conform_contacts(std::vector<PlacedMesh>& parts, const std::vector<ConformingContact>& contacts,
                       double flat_mm, core::Problems& problems);
 
-/// Cuts every part by the parts of higher priority that it overlaps with. Faces made by a cut are named
+/// Subtracts from every part the overlapping parts of higher priority. Faces made by a cut are named
 /// "cut:NAME" after the part that cut, and have the finish of the part that was cut. Parts that lie one
 /// entirely inside the other, or merely touch within `tolerance_mm`, are left unchanged, as are overlaps of
 /// equal priority, which are errors when contacts are resolved. The changes are added to the notes of the
@@ -47,18 +47,18 @@ void conform_contacts(std::vector<PlacedMesh>& parts, const std::vector<Conformi
 /// left, and cut faces without a surface.
 void cut_overlaps(std::vector<PlacedMesh>& parts, double tolerance_mm, core::Problems& problems);
 
-/// Two parts whose faces face each other across a gap that may be a mistake.
+/// Two parts whose faces face each other across a gap that may be unintended.
 struct SmallGap {
   std::string a, b;
   double gap_mm = 0.0;                    ///< at its narrowest
   core::Vec3 place = core::Vec3::Zero();  ///< there, mm
-  double area_mm2 = 0.0;                  ///< of the faces on both sides of it, seen along their normals
+  double area_mm2 = 0.0;                  ///< of the overlap of its faces, projected along their normals
 };
 
-/// A gap is small below this share of the smaller part's diagonal.
+/// A gap is small below this share of the smaller part's diagonal (chosen).
 inline constexpr double kSmallGapShare = 1e-3;
 
-/// Pairs of parts with nearly parallel faces that overlap, seen along their normals, across a gap wider
+/// Pairs of parts with nearly parallel faces that overlap, projected along their normals, across a gap wider
 /// than `tolerance_mm` (nearer ones touch) and narrower than `share` of the diagonal of the smaller part.
 /// Gaps filled by a third part are left out.
 [[nodiscard]] std::vector<SmallGap> find_small_gaps(const std::vector<PlacedMesh>& parts, double tolerance_mm,

@@ -36,10 +36,10 @@ struct PlacedMesh {
   /// Of a birefringent medium, in columns, in the frame of the part before its rotation; nothing: that
   /// frame's axes.
   std::optional<Eigen::Matrix3d> principal_axes;
-  bool principal_x_given = false;  ///< else x and y are any directions across z
+  bool principal_x_given = false;  ///< else x and y are any directions perpendicular to z
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   mesh::MeshDiagnosis diagnosis;
-  std::vector<std::string> notes;  ///< what the import left out or reversed, and later changes
+  std::vector<std::string> notes;  ///< on omissions and reversals at import, and on later changes
 };
 
 }  // namespace scintray::contact

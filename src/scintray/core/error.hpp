@@ -22,7 +22,7 @@ struct FileLocation {
   bool operator==(const FileLocation&) const = default;
 };
 
-/// One error of the input: its place, what is wrong, and how to mend it.
+/// One error of the input: its place, what is wrong, and how to correct it.
 struct Problem {
   FileLocation where;
   std::string what;  ///< what was found and what was expected
@@ -86,7 +86,7 @@ class Problems {
 std::string nearest_word(const std::string& word, const std::vector<std::string>& candidates);
 
 /// The error "no face is called "x"", with the nearest name there is and the first of the names.
-/// @param kind kind of thing that is named: "face", "part"
+/// @param kind kind of the named object: "face", "part"
 InputError unknown_name(const FileLocation& where, const std::string& kind, const std::string& wanted,
                         const std::vector<std::string>& names);
 

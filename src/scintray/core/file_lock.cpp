@@ -16,7 +16,7 @@ namespace scintray::core {
 
 namespace {
 
-/// True when the name still stands for the open file: the last holder removes the file as it releases the
+/// True when the name still refers to the open file: the last holder removes the file as it releases the
 /// lock, and whoever had it open before then holds the lock of a file without a name.
 bool still_named(const std::filesystem::path& file, int descriptor) {
   struct stat named {

@@ -1,5 +1,5 @@
 #pragma once
-/// Numbers of things, with a type for each kind of thing.
+/// Typed indices: a type of index for each kind of object.
 
 #include <cassert>
 #include <compare>
@@ -12,8 +12,8 @@
 
 namespace scintray::core {
 
-/// The index of a thing among those of its kind, or none. Ids of different kinds do not mix, and none is an
-/// integer; an array over things of one kind is an IdVector. 32 bits, plain data, none by default.
+/// The index of an object among those of its kind, or none. Ids of different kinds do not mix, and none is an
+/// integer; an array over objects of one kind is an IdVector. 32 bits, plain data, none by default.
 /// @tparam Tag  the kind; need not be defined
 template <typename Tag>
 class Id {
@@ -26,7 +26,7 @@ class Id {
     assert(std::cmp_greater_equal(index, 0) && std::cmp_less(index, kNone));
   }
 
-  /// No thing. Comes after all others in the order.
+  /// No object. Comes after all others in the order.
   static constexpr Id none() { return {}; }
 
   constexpr bool has_value() const { return index_ != kNone; }

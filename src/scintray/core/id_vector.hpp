@@ -1,5 +1,5 @@
 #pragma once
-/// Arrays over things that have an id.
+/// Arrays over objects that have an id.
 
 #include <cassert>
 #include <initializer_list>
@@ -11,7 +11,7 @@
 
 namespace scintray::core {
 
-/// The ids of the first `size` things of a kind, in their order.
+/// The ids of the first `size` objects of a kind, in their order.
 template <typename IdType>
 class IdRange {
  public:
@@ -50,7 +50,7 @@ class IdRange {
   std::size_t size_;
 };
 
-/// A value for each thing of a kind: a std::vector that only that kind's ids index.
+/// A value for each object of a kind: a std::vector that only that kind's ids index.
 template <typename IdType, typename T>
 class IdVector {
  public:
@@ -64,7 +64,7 @@ class IdVector {
   IdVector() = default;
   explicit IdVector(std::size_t size, const T& value = T()) : values_(size, value) {}
   IdVector(std::initializer_list<T> values) : values_(values) {}
-  /// The thing of index i has the i-th value.
+  /// The object of index i has the i-th value.
   explicit IdVector(Values values) : values_(std::move(values)) {}
 
   /// @pre contains(id)
@@ -82,7 +82,7 @@ class IdVector {
 
   /// The id of what comes next.
   IdType next_id() const { return IdType(values_.size()); }
-  /// @return the id of the new thing
+  /// @return the id of the new object
   IdType push_back(T value) {
     values_.push_back(std::move(value));
     return IdType(values_.size() - 1);

@@ -1,5 +1,5 @@
 #pragma once
-/// Ids of what a scene consists of. The things themselves are in scene::Scene; results number them by the
+/// Ids of what a scene consists of. The objects themselves are in scene::Scene; results number them by the
 /// names in tally::RunHeader.
 
 #include "scintray/core/id.hpp"

@@ -12,7 +12,7 @@ namespace scintray::core {
 
 namespace {
 
-/// The innermost record of this thread. Readers are called through many interfaces that know of no record.
+/// The innermost record of this thread: readers are called through many interfaces without a record.
 thread_local InputRecord* innermost = nullptr;
 
 constexpr std::size_t kPart = 1 << 16;

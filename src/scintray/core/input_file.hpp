@@ -27,7 +27,7 @@ struct InputFile {
 };
 
 /// Record of the files that its thread reads while it exists: all of read_whole_file() and h5::File::open(),
-/// and those that readers of formats with several files add. A file that is read again is not looked at
+/// and those that readers of formats with several files add. A file that is read again is not recorded
 /// again. Records are nested: the innermost alone receives.
 class InputRecord {
  public:

@@ -18,7 +18,7 @@ namespace scintray::core {
 /// What is done with the journal of an earlier process.
 enum class JournalStart {
   refuse,   ///< that of this very work is an error, so that none is lost by mistake; others are removed
-  resume,   ///< the work goes on after it; that of other work is an error
+  resume,   ///< the work continues after it; that of other work is an error
   restart,  ///< it is removed
 };
 

@@ -99,7 +99,7 @@ bool is_unit_of(std::string_view unit, Dimension dimension) {
   return std::any_of(units.begin(), units.end(), [&](const Unit& known) { return unit == known.name; });
 }
 
-/// The unit of a dimension that a word stands for, by another spelling or with a slip; empty when none is.
+/// The unit of a dimension that a word means, by another spelling or with a slip; empty without one.
 std::string meant_unit(std::string_view unit, Dimension dimension) {
   for (const Spelling& spelling : kSpellings)
     if (same_but_case(unit, spelling.written) && is_unit_of(spelling.meant, dimension)) return spelling.meant;

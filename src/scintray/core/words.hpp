@@ -1,5 +1,5 @@
 #pragma once
-/// Words of a file format and the values that they stand for.
+/// Words of a file format and the values that they represent.
 
 #include <cstddef>
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace scintray::core {
 
-/// A word and the value that it stands for: an enumerator, or the function that reads what the word begins.
+/// A word and the value that it represents: an enumerator, or the function that reads what the word begins.
 /// The words of an enum are a constexpr array beside it.
 template <typename T>
 struct Word {
@@ -27,7 +27,7 @@ template <typename T, std::size_t N>
   return std::nullopt;
 }
 
-/// The first word of a value. @throws InternalError when no word stands for it
+/// The first word of a value. @throws InternalError when it has no word
 template <typename T, std::size_t N>
 [[nodiscard]] constexpr const char* word_of(const Word<T> (&words)[N], const T& value) {
   for (const Word<T>& known : words)

@@ -32,7 +32,8 @@ class PulseShape {
  public:
   static constexpr std::size_t kMostStages = 16;
 
-  /// @param time_constants_ns  of at most kMostStages stages; those below 1e-4 of a period are taken as 0
+  /// @param time_constants_ns  of at most kMostStages stages; those below 1e-4 of a period (chosen) are
+  ///        taken as 0
   /// @param period_ns  sampling period
   /// Throws InputError when no stage of non-zero duration is left, or when the pulse is longer than 10^6
   /// periods.
@@ -42,7 +43,8 @@ class PulseShape {
   double value(double time_ns) const;
   /// Integral of the pulse, photoelectrons times ns.
   double area_ns() const { return scale_; }
-  /// Time after which less than 1e-4 of the pulse's area is left.
+  /// Time after which less than 1e-4 of the pulse's area is left (chosen). Channels draw dark counts
+  /// from this time before a waveform on.
   double duration_ns() const { return duration_ns_; }
 
   /// Waveform of avalanches (photoelectrons), sampled at start_ns, start_ns + period...

@@ -19,7 +19,7 @@ namespace scintray::exchange {
 struct SceneDraft {
   std::string toml;
   std::map<std::filesystem::path, mesh::TriMesh> meshes;  ///< by path from the scene's folder, .ply
-  std::vector<std::string> notes;                         ///< what was not carried over, or differs
+  std::vector<std::string> notes;                         ///< what was not converted, or differs
   std::string size;                  ///< of all bodies together, "3 x 3 x 20 mm"; may be empty
   std::vector<std::string> missing;  ///< what the user must fill in before the scene runs
 };
@@ -53,7 +53,7 @@ SceneDraft draft_of_model(const std::filesystem::path& file, const ModelImport& 
 namespace scintray::exchange::gdml {
 
 /// Deviation of round solids, as a share of their radius, where it is more than that of all tessellations:
-/// vessels of metres would have a million triangles at 0.01 mm.
+/// vessels of metres would have a million triangles at 0.01 mm (docs/decisions.md).
 inline constexpr double kDeviationPerRadius = 1e-4;
 
 struct GdmlImport {
@@ -64,7 +64,7 @@ struct GdmlImport {
   std::filesystem::path mesh_folder;  ///< of the meshes, from the scene's folder
   /// Elements state the file, line and column that they were made from, in the attribute `origin`.
   bool stated_origins = false;
-  std::vector<std::string> notes;  ///< what was not carried over, found before
+  std::vector<std::string> notes;  ///< what was not converted in earlier steps
   /// The example source lies in all copies of its volume, where a pattern names these and no other parts.
   bool light_in_all_copies = false;
 };
@@ -83,7 +83,7 @@ SceneDraft draft_of_gdml(const std::string& content, const std::string& file, co
 SceneDraft definitions_of_gdml(const std::string& content, const std::string& file,
                                const GdmlImport& options);
 
-/// A GDML document, and what of the scene it does not hold, with the effect.
+/// A GDML document, and notes on what of the scene it does not hold, with the effect.
 struct GdmlExport {
   std::string text;
   std::vector<std::string> notes;
@@ -104,8 +104,8 @@ namespace scintray::exchange::gate {
 /// placements and repeaters (cubicArray, linear, ring, genericRepeater), materials of GateMaterials.db with
 /// the properties of Materials.xml, and surfaces of Surfaces.xml between volumes, for light of one direction.
 /// The two .xml lie beside the macro, or in the folder above. The detector becomes the GDML document that
-/// Geant4 would have, and the scene is made as draft_of_gdml makes it.
-/// Throws InputError with all problems: their file, line, and what to do.
+/// Geant4 would have, and the scene is made as by draft_of_gdml.
+/// Throws InputError with all problems: file, line, and a hint.
 SceneDraft draft_of_gate(const std::filesystem::path& macro, gdml::GdmlImport options);
 
 /// The [media] of a Materials.xml, or the [surfaces] of a Surfaces.xml, of GATE 9 or 10.

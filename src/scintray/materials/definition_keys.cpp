@@ -5,7 +5,7 @@ namespace scintray::materials {
 
 namespace {
 
-/// What names that nobody defines stand for, while keys are explored.
+/// Placeholders for undefined names, while keys are explored.
 SurfaceLookup any_names(const SurfaceModels& models) {
   return {[](const std::string&, const core::FileLocation&) { return optics::Medium{}; },
           [](const std::string&, const core::FileLocation&) { return SurfaceSpec{}; },

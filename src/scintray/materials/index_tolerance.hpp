@@ -6,7 +6,8 @@
 
 namespace scintray::materials {
 
-/// Relative deviation of the index ratio up to which a table may be used.
+/// Relative deviation of the index ratio up to which a table may be used. Chosen: beyond it a table file is
+/// refused, and the dispersion over the wavelengths in use is warned of.
 inline constexpr double kIndexTolerance = 0.01;
 
 /// Relative difference between the ratio of indices in a setting and the table's, at a wavelength. For an

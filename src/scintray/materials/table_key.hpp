@@ -1,6 +1,6 @@
 #pragma once
 /// Keys of surface tables: texts of everything on which a table depends. Equal keys are equal tables, to the
-/// last bit; numbers are written in full, and files stand for their content.
+/// last bit; numbers are written in full, and files by their content.
 
 #include <filesystem>
 #include <optional>

@@ -54,7 +54,7 @@ bool fill(const TriMesh& mesh, std::uint32_t first_number, Surface& surface, Fac
 }
 
 /// Cleans a mesh whose groups are the numbers of the original triangles of its pieces, those of the
-/// first mesh first, and gives it the first mesh's groups.
+/// first mesh first, and assigns the first mesh's groups.
 BooleanResult numbered(TriMesh mesh, const TriMesh& first, double clean_mm) {
   const auto of_first = static_cast<std::uint32_t>(first.triangles.size());
   BooleanResult result{std::move(mesh), {}};

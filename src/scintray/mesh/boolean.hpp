@@ -16,7 +16,7 @@ enum class BooleanOperation {
   intersect,  ///< intersection
 };
 
-/// The triangle of an operand that a triangle of the result is a piece of.
+/// The triangle of an operand of which a triangle of the result is a piece.
 struct TriangleOrigin {
   bool of_second = false;
   std::uint32_t triangle = 0;
@@ -28,9 +28,10 @@ struct BooleanResult {
 };
 
 /// Boolean operation on two sound meshes (diagnose(...).sound()). Which triangles are cut, and where the
-/// result's boundary runs, is decided exactly (CGAL's corefinement); only then are new vertices rounded,
-/// those within `clean_mm` of each other welded, and triangles flatter than that removed. Triangles from the
-/// second mesh have the group of the first mesh's first triangle; `origin` identifies them.
+/// boundary of the result lies, is decided with exact predicates (CGAL's corefinement); only then are new
+/// vertices rounded, those within `clean_mm` of each other welded, and triangles flatter than that removed.
+/// Triangles from the second mesh have the group of the first mesh's first triangle; `origin` identifies
+/// them.
 ///
 /// Empty when CGAL fails: an operand crosses itself or bounds no volume, or the result would have
 /// an edge of more than two triangles. An empty mesh when nothing is left.
@@ -44,10 +45,10 @@ struct BooleanResult {
                                                    double clean_mm);
 
 /// Union, difference `a` minus `b`, or intersection of two bodies. Triangles of the result keep the group and
-/// tags of the mesh that they come from. The result may be empty. Faces of the two that lie on each other
+/// tags of the mesh that they come from. The result may be empty. Coplanar overlapping faces of the two
 /// are allowed.
 /// @throws InputError when either mesh is not closed, crosses itself or is inside out, and when the result
-///         would touch itself along an edge, which no closed surface of triangles can.
+///         would touch itself along an edge, which is not a manifold.
 [[nodiscard]] TriMesh combine(const TriMesh& a, const TriMesh& b, BooleanOperation operation);
 
 }  // namespace scintray::mesh

@@ -100,8 +100,9 @@ class DegeneratePass {
     const std::uint32_t low = std::min(a, b), high = std::max(a, b);
     auto use = std::lower_bound(uses.begin(), uses.end(), std::pair(low, high),
                                 [](const EdgeUse& u, const auto& e) { return std::pair(u.low, u.high) < e; });
-    // The neighbour across the edge runs along it the other way. Where welding has brought four triangles
-    // together at an edge, another one would belong to another sheet, and cutting it would open both.
+    // The neighbour across the edge runs along it in the opposite direction. Where welding has brought four
+    // triangles together at an edge, another one would belong to another sheet, and cutting it would open
+    // both.
     const auto last =
         std::find_if(use, uses.end(), [&](const EdgeUse& u) { return u.low != low || u.high != high; });
     const auto opposite = [&](const EdgeUse& u) {
@@ -214,7 +215,7 @@ class DegenerateMerge {
     return found;
   }
 
-  /// True when the surface stays what it was, but for rounding: the edge has two triangles, no others have
+  /// True when the surface is unchanged, but for rounding: the edge has two triangles, no others have
   /// both ends in reach (Dey et al. 1999, the link condition), none coincides with another afterwards, and
   /// `to` lies in the planes and on the round faces of those that move.
   bool can_merge(std::uint32_t from, std::uint32_t to) const {

@@ -15,9 +15,9 @@ struct DegenerateRemoval {
 
 /// Removes triangles without area (is_degenerate with `length_mm`). One with three different
 /// vertices leaves a slit between its long edge and its middle vertex, so the neighbour across the
-/// long edge is cut there: no open edges arise. Where cutting only moves slivers, along a smooth border of
-/// close vertices, the middle vertex is merged with an end of the long edge, if that moves no triangle
-/// beside it by more than twice `length_mm`.
+/// long edge is cut there: no open edges arise. Where cutting only shifts slivers, along a smooth border of
+/// closely spaced vertices, the middle vertex is merged with an end of the long edge, if that moves no
+/// triangle beside it by more than twice `length_mm`.
 DegenerateRemoval remove_degenerate(TriMesh& mesh, double length_mm);
 
 }  // namespace scintray::mesh

@@ -32,7 +32,7 @@ struct MeshDiagnosis {
   Defects degenerate_triangles;  ///< no area (see is_degenerate)
   Defects duplicate_triangles;   ///< same three vertices as an earlier triangle, in any order
   Defects self_intersections;    ///< pairs of triangles that intersect other than in shared vertices/edges
-  Defects inverted_bodies;       ///< closed bodies whose inside is on the wrong side, given nesting
+  Defects inverted_bodies;       ///< closed bodies with inward normals, given their nesting
   std::size_t bodies = 0;        ///< sets of triangles connected through edges
   double volume_mm3 = 0.0;       ///< signed; meaningful when closed and consistently oriented
   double area_mm2 = 0.0;
@@ -40,9 +40,9 @@ struct MeshDiagnosis {
 
   /// Every edge has exactly two triangles, and there is at least one triangle.
   bool closed() const { return triangles > 0 && open_edges.count == 0 && nonmanifold_edges.count == 0; }
-  /// Triangles agree with their neighbours and normals point out of the solid.
+  /// Triangles are oriented as their neighbours, and normals point out of the solid.
   bool outward() const { return flipped_edges.count == 0 && inverted_bodies.count == 0 && volume_mm3 > 0.0; }
-  /// Fit to be a part: closed, outward, and without self-intersection.
+  /// Usable as a part: closed, outward, and without self-intersection.
   bool sound() const {
     return closed() && outward() && self_intersections.count == 0 && degenerate_triangles.count == 0;
   }
@@ -58,7 +58,7 @@ struct MeshDiagnosis {
 [[nodiscard]] std::vector<core::Problem> mesh_problems(const MeshDiagnosis& diagnosis,
                                                        const std::string& part_name);
 
-/// Makes all triangles agree with their neighbours (where the mesh permits) and reverses triangles so that
+/// Orients all triangles as their neighbours (where the mesh permits) and reverses triangles so that
 /// normals point out of the solid, nested shells included. Returns true when any triangle was reversed.
 /// Geometry, vertex numbers and triangle order are unchanged.
 bool orient_outwards(TriMesh& mesh);

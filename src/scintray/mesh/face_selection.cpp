@@ -170,7 +170,7 @@ void apply_smooth_region(const TriMesh& mesh, const FaceSelector& selector, std:
   }
 }
 
-/// The least member of the set of `t`, which it halves the way to.
+/// The least member of the set of `t`; halves the path to it (path halving).
 std::uint32_t root_of(std::vector<std::uint32_t>& parent, std::uint32_t t) {
   while (parent[t] != t) t = parent[t] = parent[parent[t]];
   return t;

@@ -11,7 +11,7 @@
 
 namespace scintray::mesh {
 
-/// Angle between the normals of neighbouring triangles beyond which their edge ends a smooth region.
+/// Angle between the normals of neighbouring triangles beyond which their edge ends a smooth region (chosen).
 inline constexpr double kSmoothEdge = 30.0 * core::kDegree;
 
 /// Conditions on a triangle; all that are set must hold, and without conditions every triangle is selected.

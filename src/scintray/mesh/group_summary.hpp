@@ -1,5 +1,5 @@
 #pragma once
-/// Size, place and direction of the groups of a mesh, for lists that users choose faces from.
+/// Size, position and direction of the groups of a mesh, for lists from which users select faces.
 
 #include <string>
 #include <vector>

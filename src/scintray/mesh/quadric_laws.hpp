@@ -1,6 +1,6 @@
 #pragma once
-/// Quadrics of revolution over a number type (core/number.hpp): a ray inside a convex one, and the surface
-/// next to a point. SupportSurface (support_surface.hpp) describes their numbers.
+/// Quadrics of revolution over a number type (core/number.hpp): intersection with a ray from inside, and
+/// projection of a nearby point. SupportSurface (support_surface.hpp) describes their numbers.
 
 #include <limits>
 
@@ -14,10 +14,10 @@ struct QuadricOnRayOf {
   Real a, b, c;
 };
 
-/// Distance (mm) at which a ray from inside a convex quadric, or from on it, leaves it; infinite where it
-/// does not. The point is inside, so that c is not positive but for rounding, which leaves one root ahead:
-/// with c = 0 for the surface that the ray has just been reflected at, it is the other root, -2 b / a, or 0
-/// for a ray that points outwards.
+/// Distance (mm) at which a ray from inside a convex quadric, or from a point on it, leaves it; infinite
+/// where it does not. The origin is inside, so that c <= 0 except for rounding, and exactly one root is
+/// ahead: with c = 0 for the surface at which the ray has just been reflected, it is the other root, -2 b /
+/// a, or 0 for a ray that points outwards.
 template <typename Real>
 Real distance_out(const QuadricOnRayOf<Real>& q) {
   using core::greatest, core::root, core::select;

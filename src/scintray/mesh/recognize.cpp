@@ -324,8 +324,8 @@ class Recognizer {
       // The tip of a cone has no direction across the axis.
       const double cosine = rho > 0.0 ? px / rho : 0.0, sine = rho > 0.0 ? py / rho : 0.0;
       const double off = rho - wall.radius - wall.slope * z;
-      // The axis turned by small angles towards x and y takes z from the distance, and adds to z. Of what is
-      // not free, no change is the least solution.
+      // Rotating the axis by small angles towards x and y subtracts z from the distance, and adds to z. For
+      // what is not free, zero change is the least-norm solution.
       const double turn = free.axis ? 1.0 : 0.0;
       slope << -cosine, -sine, -turn * (z * cosine + wall.slope * px), -turn * (z * sine + wall.slope * py),
           -1.0, free.slope ? -z : 0.0;

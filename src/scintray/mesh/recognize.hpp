@@ -1,5 +1,5 @@
 #pragma once
-/// Recognition of round faces in meshes that came as triangles.
+/// Recognition of round faces in meshes imported as triangles.
 
 #include <string>
 #include <vector>
@@ -18,15 +18,15 @@ struct RecognizedFace {
 /// Spheres, cylinders and cones among the faces of a mesh; sets the support surface of their triangles.
 /// Triangles that have one already keep it.
 ///
-/// Facets that meet at 30 degrees or less belong to one smooth face. A surface is fitted to neighbouring
-/// facets and grows over the smooth face as long as corners lie on it: a sphere by linear least squares, a
-/// cylinder or cone from the axis to which all facets have one angle (the eigenvector of least eigenvalue of
-/// the covariance of their normals), both improved by the Gauss-Newton method. The surface that covers most
-/// triangles is taken, then the rest is searched again. A face needs six corners and facets of at least three
-/// directions.
+/// Adjacent facets at 30 degrees or less to each other belong to one smooth face. A surface is fitted to
+/// neighbouring facets and grows over the smooth face as long as corners lie on it: a sphere by linear least
+/// squares, a cylinder or cone from the axis to which all facets have the same angle (the eigenvector of
+/// least eigenvalue of the covariance of their normals), both improved by the Gauss-Newton method. The
+/// surface that covers most triangles is taken, then the rest is searched again. A face needs six corners and
+/// facets of at least three directions.
 ///
-/// A prism with twelve sides or more is a cylinder to this function, since no mesh states which is meant:
-/// use it on request only, and report what it found.
+/// A prism with twelve sides or more is recognized as a cylinder, since a mesh does not state which is
+/// intended: callers use this function on request only, and report the result.
 /// @param tolerance_mm  largest distance of a corner from the surface
 std::vector<RecognizedFace> recognize_round_faces(TriMesh& mesh, double tolerance_mm);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Smooth faces that a mesh has as facets.
+/// Smooth faces that a mesh represents by facets.
 
 #include <cstdint>
 #include <vector>
@@ -9,10 +9,10 @@
 
 namespace scintray::mesh {
 
-/// Estimate, for each face, of the deviation of its facets from the smooth surface that they suggest; zero
-/// for faces that are flat, or whose facets meet at more than 30 degrees, as a prism's.
+/// Estimate, for each face, of the deviation of its facets from the smooth surface that they approximate;
+/// zero for faces that are flat, or whose facets are at more than 30 degrees to each other, as a prism's.
 ///
-/// Facets that meet at an edge at the angle d are taken for chords of one arc: each is d / 2 from the
+/// Facets at an angle d to each other at an edge are taken as chords of one arc: each is d / 2 from the
 /// surface's direction at the edge, and the sagitta of a chord of width w is w d / 8 (to third order).
 /// @param face_of  face of each triangle; only triangles of one face, without a support surface, are compared
 /// @param faces    their number

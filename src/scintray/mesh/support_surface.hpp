@@ -11,7 +11,7 @@
 
 namespace scintray::mesh {
 
-/// No support surface: the triangle is a face as it is.
+/// No support surface: the triangle itself is the face.
 inline constexpr std::uint32_t kNoSupport = 0xffffffffu;
 
 /// Kinds of support surface.
@@ -27,7 +27,8 @@ struct Foot {
 /// With z along the axis from the origin and rho the distance from the axis, a quadric is
 ///   q = rho^2 + axial z^2 - 2 slope z - radius2 = 0,
 /// and q < 0 inside. The origin of a cone lies on its axis inside the nappe, not at the tip, so that a narrow
-/// cone far from its tip keeps its digits. A torus is q = (rho - major)^2 + z^2 - radius2 = 0. Lengths mm.
+/// cone far from its tip does not lose precision. A torus is q = (rho - major)^2 + z^2 - radius2 = 0. Lengths
+/// mm.
 struct SupportSurface {
   core::PlainVec3 origin, axis;  ///< axis: of unit length
   double axial = 0.0;    ///< above 0: sphere (1), spheroid; 0: cylinder, paraboloid; below 0: cone (minus the
@@ -48,7 +49,7 @@ struct SupportSurface {
                                 double radius2) {
     return {origin, axis.normalized(), axial, slope, radius2};
   }
-  /// The spheroid of the half axes `across` and `along` the axis.
+  /// The spheroid with the semi-axes `across`, perpendicular to the axis, and `along` it.
   static SupportSurface spheroid(const core::Vec3& centre, const core::Vec3& axis, double across,
                                  double along);
   /// The torus of a tube of `minor` radius about a circle of `major` radius, which is not below it.
@@ -105,10 +106,10 @@ struct SupportSurface {
     return is_sphere() ? origin.vec() : core::Vec3(point - place(point).rho);
   }
 
-  /// The surface after a motion that keeps angles; nothing after any other.
+  /// The surface after a transformation that preserves angles; nothing after any other.
   std::optional<SupportSurface> moved(const Eigen::Affine3d& motion) const;
 
-  /// Whether the two are stated by the same numbers, to rounding.
+  /// Whether the two have the same numbers, to rounding.
   bool is_same(const SupportSurface& other) const;
   /// Whether the two are one surface: within `tolerance_mm` of each other at these points of the first.
   bool agrees_with(const SupportSurface& other, const std::array<core::Vec3, 3>& points,
@@ -131,7 +132,7 @@ struct SupportSurface {
 };
 static_assert(std::is_trivially_copyable_v<SupportSurface>);
 
-/// What a patch of a surface adds to the triangle that approximates it.
+/// Area and volume of a patch of a surface in excess of the triangle that approximates it.
 struct PatchExcess {
   double area_mm2 = 0.0;    ///< of the patch, less that of the triangle
   double volume_mm3 = 0.0;  ///< between the triangle and the patch; negative on the wall of a hole
@@ -139,11 +140,13 @@ struct PatchExcess {
 
 /// Excess of the patch above a triangle whose corners lie on the surface: the triangle is projected from the
 /// centre of a sphere, from the circle in a torus, and at constant z from the axis of other surfaces.
-/// Gauss-Legendre quadrature, 12 points each way: to rounding for triangles that span up to 30 degrees.
+/// Gauss-Legendre quadrature, 12 points in each direction: exact to rounding for triangles that span up to 30
+/// degrees.
 PatchExcess patch_excess(const SupportSurface& surface, const std::array<core::Vec3, 3>& triangle);
 
 /// Area (mm2) between a chord and the circle in which the surface intersects the plane through the chord with
-/// the unit normal `normal`; zero where that is no circle: a surface, not a sphere, that is cut obliquely.
+/// the unit normal `normal`; zero where the intersection is not a circle: for oblique cuts of surfaces other
+/// than spheres.
 double segment_area(const SupportSurface& surface, const core::Vec3& normal, const core::Vec3& a,
                     const core::Vec3& b);
 

@@ -46,13 +46,13 @@ struct TriMesh {
   std::uint32_t support_of(std::size_t triangle) const {
     return triangle < support.size() ? support[triangle] : kNoSupport;
   }
-  /// Number of a surface, added unless one that is the same to rounding is there.
+  /// Number of a surface, which is added unless one that is equal to rounding exists.
   std::uint32_t support_index(const SupportSurface& surface);
-  /// Adds a surface and gives it to the triangles from `first` on.
+  /// Adds a surface and makes it the support surface of the triangles from `first` to `last` - 1.
   void set_support(const SupportSurface& surface, std::size_t first, std::size_t last);
 };
 
-/// Middle of a triangle, mm.
+/// Centroid of a triangle, mm.
 core::Vec3 centre_of(const TriMesh& mesh, std::size_t triangle);
 
 /// Removes the triangles, with their groups and supports, where `wanted` is zero; the rest keep their order.

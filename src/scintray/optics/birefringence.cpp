@@ -91,7 +91,7 @@ BirefringentOptics::BirefringentOptics(const Birefringence& medium, double wavel
 
 void BirefringentOptics::find_dipole_emission() {
   const Vec3 impermeability = impermeability_of(index);
-  // An eighth of the sphere stands for all: Gauss's rule along z, even steps around it.
+  // By symmetry an octant suffices: Gauss's rule along z, equal steps around it.
   using Rule = boost::math::quadrature::gauss<double, 20>;  // nodes above 0, of an even function
   constexpr int kAround = 16;
   Vec3 power = Vec3::Zero();

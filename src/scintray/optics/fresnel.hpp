@@ -59,7 +59,7 @@ inline void reflect(Ray& ray, const core::Vec3& m) {
   ray.ellipticity_rad = -ray.ellipticity_rad;  // the field turns as before, the direction does not
 }
 
-/// A linear polarisation drawn evenly across the direction.
+/// A linear polarisation drawn uniformly in the plane perpendicular to the direction.
 inline void repolarise(Ray& ray, core::Rng& rng) {
   ray.polarisation = core::sample_polarisation(ray.direction, rng);
   ray.ellipticity_rad = 0.0;
@@ -92,8 +92,7 @@ enum class Side : std::uint8_t { inside = 0, outside = 1 };
 constexpr Side other(Side side) { return side == Side::inside ? Side::outside : Side::inside; }
 
 /// Refractive indices on the two sides of a microsurface. Where a medium is birefringent, `inside` or
-/// `outside` is the index of the light's mode, or the mean of the medium's, for models that know one index
-/// only.
+/// `outside` is the index of the light's mode, or the mean of the medium's for models with a single index.
 struct IndexPair {
   double inside = 1.0;
   double outside = 1.0;

@@ -12,9 +12,9 @@ namespace scintray::optics {
 
 /// Polarisation of light after a reflection by Lambert's law.
 enum class PaintPolarisation {
-  random,  ///< none is left of what it was: multiple scattering depolarises
-  /// As Geant4 has it when light returns through a back-painted face: its boundary process goes on with the
-  /// vector from before the paint, of which the part perpendicular to the plane of incidence counts as such
+  random,  ///< multiple scattering depolarises
+  /// As in Geant4 when light returns through a back-painted face: its boundary process continues with the
+  /// vector from before the paint, whose component perpendicular to the plane of incidence is taken as such
   /// and all the rest as parallel (G4OpBoundaryProcess::DielectricDielectric). The plane is here that of the
   /// mean face.
   geant4

@@ -44,7 +44,8 @@ enum class ShiftStatistics {
 /// Wavelengths of re-emitted light by that of the absorbed photon.
 enum class ShiftRule {
   no_gain,  ///< the spectrum beyond the absorbed wavelength: no photon gains energy; Geant4's G4OpWLS
-  kasha     ///< the whole spectrum, whatever the absorbed wavelength (M. Kasha 1950); the difference is heat
+  kasha     ///< the whole spectrum, whatever the absorbed wavelength; the difference is heat (M. Kasha 1950,
+            ///< cited from memory)
 };
 
 /// One dye or phosphor.

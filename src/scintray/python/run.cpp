@@ -46,7 +46,7 @@ class ColumnSink : public simulation::ResultSink {
   RunData& data_;
 };
 
-/// A scene and its simulation, of which one run goes on at a time.
+/// A scene and its simulation, with one run at a time.
 class Session {
  public:
   Session(const Text& text, const Text& file, simulation::SimulationOptions options)

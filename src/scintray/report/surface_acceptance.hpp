@@ -8,7 +8,7 @@
 
 namespace scintray::report {
 
-/// The value that a criterion is about; angles in rad. The width of a lobe has no error.
+/// The value of a criterion's quantity; angles in rad. The width of a lobe has no error.
 /// @throws InputError when there is no such reading
 core::Estimate surface_value(const scene_file::CriterionSpec& criterion,
                              const std::vector<analysis::SurfaceAnalysis>& analyses);

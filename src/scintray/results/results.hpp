@@ -20,15 +20,15 @@
 
 namespace scintray::results {
 
-/// Version of the layout; grows when a reader of the older one would misread the newer.
+/// Version of the layout; it increases when a reader of the older one would misread the newer.
 inline constexpr std::int64_t kResultsVersion = 2;
 
 /// Writer of one results file during a run. There is no file at `path` before commit().
 class ResultsWriter {
  public:
   /// Creates the file at once, so that a path that cannot be written is an error before hours of work.
-  /// `photon_list` also prepares the list of detected photons. Throws InputError when `path` is taken
-  /// by a file that is not a ScintRay result, SystemError when it cannot be written.
+  /// `photon_list` also prepares the list of detected photons. Throws InputError when `path` is
+  /// a file that is not a ScintRay result, SystemError when it cannot be written.
   ResultsWriter(const std::filesystem::path& path, const tally::RunHeader& header, bool photon_list);
   ResultsWriter(ResultsWriter&&) noexcept;
   ResultsWriter& operator=(ResultsWriter&&) noexcept;
@@ -82,19 +82,20 @@ struct ResultsStatus {
 /// Content of a file without the photon list. Throws InputError when the file is missing, is not a ScintRay
 /// result, has a version this program does not read (both versions are named) or is inconsistent.
 tally::RunResult read_results(const std::filesystem::path& path);
+/// Completeness of a file. Throws InputError as read_results.
 ResultsStatus read_results_status(const std::filesystem::path& path);
 
-/// What the list of detected photons has. @throws InputError when there is no list
+/// Selection of photons and columns in the photon list. @throws InputError when there is no list
 PhotonListLayout read_photon_layout(const std::filesystem::path& path);
-/// At most `count` detected photons from row `offset` on; what the file has no column of is not a number, or
-/// no id, or 0. Throws InputError when there is no list.
+/// At most `count` detected photons from row `offset` on; members without a column in the file are NaN, no
+/// id, or 0. Throws InputError when there is no list.
 std::vector<tally::DetectedPhoton> read_photons(const std::filesystem::path& path, std::uint64_t offset,
                                                 std::uint64_t count);
 
 /// Recorded paths of a point's photons; empty when there are none.
 std::vector<tally::PhotonPath> read_paths(const std::filesystem::path& path, std::size_t point);
 
-/// Goniometer readings; empty when there are none.
+/// Goniometer readings; empty when there are none. Throws InputError as read_results.
 std::vector<analysis::SurfaceAnalysis> read_surfaces(const std::filesystem::path& path);
 
 /// Readout of the events of a point; empty when it has no events.
@@ -115,18 +116,18 @@ enum class EventDetail {
 std::vector<tally::EventRecord> read_events(const std::filesystem::path& path, std::uint64_t offset,
                                             std::uint64_t count, EventDetail detail = EventDetail::all);
 
-/// True when `path` is an HDF5 file that ScintRay wrote as a result, of whatever version.
+/// True when `path` is an HDF5 file that ScintRay wrote as a result, of any version.
 bool is_results_file(const std::filesystem::path& path);
 
 /// Writes a table of a results file (photons, events, signals, paths, path_steps) as columns of 64-bit
 /// floating-point numbers, with the names of the results file.
 ///
-/// The extension of the output selects the form: .csv, with a heading; .npy, a structured array of NumPy
+/// The extension of the output selects the format: .csv, with a heading; .npy, a structured array of NumPy
 /// with a field per column; .lh5, HDF5 with the attributes of LEGEND's data format (datatype "table{...}" of
 /// the group, "array<1>{real}" and units of the columns; legend-data-format-specs, "HDF5 File Format").
 /// @param table  group of the results file
 /// @return number of rows
-/// @throws InputError for a file that is no result, a table that it does not have, and another extension
+/// @throws InputError for a file that is not a result, a table that it does not have, and other extensions
 std::uint64_t export_rows(const std::filesystem::path& results, const std::string& table,
                           const std::filesystem::path& output);
 

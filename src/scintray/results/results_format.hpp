@@ -29,15 +29,15 @@ const Field& field(std::string_view name);
 /// Sets `description` and `unit` on a dataset just written.
 void describe(core::h5::Group& group, const std::string& name);
 
-/// An opened result that this program can read; InputError when it cannot.
+/// Opens a result; InputError when this program cannot read it.
 core::h5::File open_results(const std::filesystem::path& path);
 
 /// True when the root states that the file is a ScintRay result.
 bool has_format(const core::h5::Group& root);
 
-/// The error of an inconsistent result.
+/// The error of an inconsistent results file.
 core::InputError damaged(const std::filesystem::path& path, const std::string& what);
-/// The error of a result without something that was not requested of its run.
+/// The error of a result without a record that its run did not request.
 core::InputError lacking(const std::filesystem::path& path, const std::string& what, const std::string& hint);
 
 /// Writes a dataset with its description and unit.
@@ -61,10 +61,10 @@ void put(core::h5::Group& group, const std::string& name, T value) {
 /// Names of the dimensions of datasets of a group.
 using DimensionNames = std::map<std::string, std::vector<std::string>, std::less<>>;
 
-/// Gives every dimension of a group's datasets that has no dimension scale one, so that readers of netCDF, as
-/// xarray, open the group. A scale is the dataset of the group with the name of the dimension; where there is
-/// none it is written: indices from 0.
-/// @param names  of dimensions; others are called index, index_2, ..., one for each length
+/// Attaches a dimension scale to every dimension of a group's datasets without one, so that readers of
+/// netCDF, such as xarray, open the group. A scale is the dataset of the group with the name of the
+/// dimension; where there is none it is written, with indices from 0.
+/// @param names  of dimensions; others are named index, index_2, ..., one for each length
 void name_dimensions(core::h5::Group& group, const DimensionNames& names = {});
 
 /// "0007": name of the group of a point or tally.

@@ -220,7 +220,7 @@ struct FaceInfo {
       core::Vec3::Zero();           ///< sum of outward normal times area: as long as the area when flat
   std::vector<core::Vec3> corners;  ///< of its triangles, each once
   std::string curve;                ///< kind of the surface that it approximates; empty: none is known
-  bool exact = false;               ///< that surface stands for its triangles
+  bool exact = false;               ///< that surface replaces its triangles in ray tracing
   mesh::FacetDeviation deviation;   ///< largest of its triangles from that surface
 };
 

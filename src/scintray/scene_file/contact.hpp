@@ -1,5 +1,6 @@
 #pragma once
-/// [[contact]]: the optical contact between faces that touch; [[gap]]: small gaps that are meant. Lengths mm.
+/// [[contact]]: the optical contact between faces that touch; [[gap]]: small gaps that are intended. Lengths
+/// mm.
 
 #include <array>
 #include <optional>
@@ -43,7 +44,7 @@ struct ContactSpec {
   bool operator==(const ContactSpec&) const = default;
 };
 
-/// Parts between which small gaps are meant: `check` counts them, and does not warn of them.
+/// Parts between which small gaps are intended: `check` counts them without a warning.
 struct GapSpec {
   std::array<config::NameRef, 2> between;  ///< names, or patterns with "*" (core/pattern.hpp)
   core::FileLocation where;

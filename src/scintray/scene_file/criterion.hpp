@@ -20,7 +20,7 @@ enum class CriterionQuantity {
   maximum_ratio,    ///< largest light of a curve over that of another
   resolution,       ///< of the photopeak at the first point of a curve, full width at half maximum
   time_ratio,       ///< time per photon of a curve over that of another
-  mean_slope,       ///< mean angle of the facets that light hits, rad
+  mean_slope,       ///< mean visible slope: mean angle of the facets that light hits first, rad
   reflectance,
   over_fresnel,  ///< reflectance minus Fresnel's of a flat face
   lobe_width,    ///< rms width of the reflected light, in the plane of incidence, as the angle of that sine,
@@ -44,12 +44,12 @@ bool is_of_surface(CriterionQuantity quantity);
 bool is_angle(CriterionQuantity quantity);
 
 struct CriterionSpec {
-  std::string text;       ///< the criterion in words
-  std::string published;  ///< the published value, in words
+  std::string text;       ///< the criterion as text
+  std::string published;  ///< the published value, as text
   std::string note;       ///< reason for a deviation of the simulation
   CriterionQuantity quantity = CriterionQuantity::light;
   config::NameRef curve,
-      over;  ///< labels of curves: settings of all keys but the last swept number, "2 mm, polished"
+      over;  ///< labels of curves: values of all keys but the last swept number, "2 mm, polished"
   config::NameRef surface, outside;         ///< of a [[bench]]
   double incidence_rad = 0.0;               ///< one of the goniometer's angles
   std::optional<double> at_least, at_most;  ///< limits of acceptance, both inclusive; rad for an angle

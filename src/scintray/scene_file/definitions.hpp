@@ -12,7 +12,7 @@
 
 namespace scintray::scene_file {
 
-/// A name of a definition, and where it stands.
+/// A name of a definition, with its kind and place.
 struct DefinitionRef {
   materials::DefinitionKind kind;
   config::NameRef name;
@@ -22,15 +22,15 @@ struct DefinitionRef {
 /// The medium kOpaqueMedium, which needs no definition, is left out.
 std::vector<DefinitionRef> named_definitions(const SceneSpec& scene);
 
-/// Reports every such name that has no definition, neither shipped nor in the scene. For a scene with other
-/// errors, whose definitions are never read.
+/// Reports every such name without a definition, shipped or in the scene. For scenes with other errors, whose
+/// definitions are not read.
 void expect_definitions(const SceneSpec& scene, core::Problems& problems);
 
 /// A scene's own definitions, by kind and name.
 std::vector<DefinitionRef> own_definitions(const SceneSpec& scene);
 
-/// A scene's own definitions whose name is no value in its file, neither of a part nor of a sweep nor of
-/// another definition, in the order of the file. Values that name parts are not names of definitions.
+/// A scene's own definitions whose name is not a value in its file, of a part, a sweep or another definition,
+/// in the order of the file. Values that name parts are not names of definitions.
 std::vector<DefinitionRef> unused_definitions(const SceneSpec& scene, const config::TomlNode& document);
 
 /// The table of a definition as the file has it: "surfaces.rough".

@@ -25,9 +25,9 @@ inline constexpr core::Word<FitQuantity> kFitQuantities[] = {
     {"light_per_keV", FitQuantity::light_per_keV},
     {"reflectance", FitQuantity::reflectance}};
 
-/// Quantity of a parameter in which a fit makes its steps, and in which an error is symmetrical: the one by
-/// which curves change more nearly in proportion. Light falls in proportion to an absorption coefficient, the
-/// inverse of a length, as long as little is lost.
+/// Variable of a parameter in which a fit searches, and in which an error is symmetrical: the one in which
+/// curves are more nearly linear. Light decreases in proportion to an absorption coefficient, the inverse of
+/// a length, as long as little is absorbed.
 enum class FitVariable { value, inverse };
 
 inline constexpr core::Word<FitVariable> kFitVariables[] = {{"value", FitVariable::value},

@@ -20,10 +20,10 @@
 
 namespace scintray::scene_file {
 
-/// What deposits the energy of an event of type = "gamma_events". The light of a scintillator whose response
-/// is not proportional, and Cherenkov light, depend on it.
+/// Particle that deposits the energy of an event of type = "gamma_events". The light of a scintillator whose
+/// response is not proportional, and Cherenkov light, depend on it.
 enum class Depositing {
-  gamma,    ///< a gamma of this energy, absorbed in the medium: Compton and photoelectrons share the energy
+  gamma,    ///< a gamma of this energy, absorbed in the medium: its Compton and photoelectrons
   electron  ///< one electron
 };
 inline constexpr core::Word<Depositing> kDepositing[] = {{"gamma", Depositing::gamma},
@@ -45,7 +45,8 @@ struct PlaneSpec {
   core::FileLocation where;
 };
 
-/// Range of energies of gamma transport: below it a gamma's energy is deposited at its position.
+/// Range of energies of gamma transport (docs/gamma_sources.md): below it a gamma's energy is deposited at
+/// its position.
 inline constexpr double kLowestGamma_keV = 10.0;
 inline constexpr double kHighestGamma_keV = 3000.0;
 
@@ -72,7 +73,7 @@ struct MatterSpec {
   core::FileLocation where;
 };
 
-/// Name that stands for the ambient in MatterSpec::part.
+/// Name of the ambient in MatterSpec::part.
 inline constexpr const char* kAmbientName = "ambient";
 
 /// type = "gammas": transport of gammas through the scene.
@@ -83,7 +84,7 @@ struct EmitterSpec {
   core::FileLocation emission_where;
   double energy_keV = 0.0;         ///< of Emission::gamma
   DirectionSpec direction;         ///< of the gamma, or of the first of the pair; nuclides are isotropic
-  double acollinearity_rad = 0.0;  ///< of the pair: FWHM of either transverse angle from back to back
+  double acollinearity_rad = 0.0;  ///< of the pair: FWHM of either transverse deviation from 180 deg
   bool fluorescence = true;        ///< K X-rays after photoelectric absorption
   std::vector<MatterSpec> matter;  ///< the last one for a part applies
 };

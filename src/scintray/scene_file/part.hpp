@@ -39,7 +39,7 @@ struct FaceSelectorSpec {
   std::optional<core::Vec3> nearest;        ///< point, mm: the one triangle nearest to it
   std::optional<core::Vec3> smooth_region;  ///< point, mm: the smooth region of the triangle nearest to it
   config::NameRef smooth_around;            ///< the smooth regions of a group
-  config::NameRef touches;                  ///< pattern of parts: the whole faces that lie against one
+  config::NameRef touches;                  ///< pattern of parts: the whole faces in contact with one
   std::optional<double> edge_angle_rad;     ///< where smooth regions end; none: mesh::kSmoothEdge
   config::NameRef group;                    ///< glTF material or OBJ group of the mesh file; side
                                             ///< "-z" of a box, "side" of a cylinder
@@ -69,7 +69,7 @@ struct PartSpec {
   /// Directions of the principal axes x, y, z of a birefringent medium in the part's own frame, in columns;
   /// nothing: along the axes of that frame.
   std::optional<Eigen::Matrix3d> principal_axes;
-  bool principal_x_given = false;  ///< else x and y are any directions across z
+  bool principal_x_given = false;  ///< else x and y are any directions perpendicular to z
   int priority = 0;  ///< of two overlapping parts the one with the higher priority keeps the volume
   std::vector<FaceRuleSpec> faces;
   bool liquid = false;  ///< glue or filler of a builder: its faces need no surface, they are smooth

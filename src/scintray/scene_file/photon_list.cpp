@@ -74,7 +74,7 @@ void check_lengths(const PhotonColumns& photons, const PhotonListSpec& spec) {
 std::string fault_of(const PhotonColumns& photons, std::size_t i) {
   for (const core::Word<PhotonColumn>& column : kPhotonColumns) {
     const std::vector<double>& values = photons.*column_member(column.value);
-    // An energy of zero has no finite wavelength, and is answered below.
+    // An energy of zero has no finite wavelength, and is reported below.
     if (!values.empty() && !std::isfinite(values[i]) && column.value < PhotonColumn::wavelength)
       return std::string(column.word) + " is not a finite number";
   }

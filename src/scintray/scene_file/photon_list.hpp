@@ -77,7 +77,7 @@ class PhotonListContent {
   std::optional<PhotonColumns> columns_;
 };
 
-/// What is done with photons that cannot start: those in a part that absorbs all light.
+/// Treatment of photons that cannot start: those in a part that absorbs all light.
 enum class Misplaced {
   refuse,    ///< an error with the first of them
   leave_out  ///< counted in a note

@@ -77,7 +77,7 @@ void read_source(const config::TomlTable& root, const std::vector<std::string>& 
   }
 }
 
-/// Reports phases that are to be kept of light that has none.
+/// Reports phases requested of light that has none.
 void expect_polarised(const config::TomlTable& root, const SceneSpec& scene) {
   const bool unpolarised = scene.energy_source ? scene.energy_source->unpolarised : scene.source.unpolarised;
   if (unpolarised && scene.run.polarisation == PolarisationState::elliptical)

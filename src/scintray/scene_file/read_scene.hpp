@@ -14,7 +14,7 @@
 
 namespace scintray::scene_file {
 
-/// Lists that are needed while a scene file is read. Models of surfaces and sensors are needed later
+/// Registries needed while a scene file is read. Models of surfaces and sensors are needed later
 /// (simulation::SimulationOptions::models).
 struct Extensions {
   TallyVariables variables = TallyVariables::built_in();           ///< that tallies may name
@@ -29,7 +29,7 @@ SceneSpec read_scene(const config::TomlNodePtr& document, const std::string& tex
 /// All keys that read_scene can read in the tables of this document, as "part.place.gap", sorted.
 std::vector<std::string> scene_keys(const config::TomlNodePtr& document);
 
-/// How read_scene uses the keys of this document, errors and all (config::explore_keys). Definitions,
+/// Uses of the keys of this document by read_scene, also with errors (config::explore_keys). Definitions,
 /// [media.NAME] and the like, are read by the material database (materials::definition_key_uses).
 std::vector<config::KeyUse> scene_key_uses(const config::TomlNodePtr& document);
 
@@ -43,13 +43,14 @@ class SceneFile {
   static SceneFile from_text(const std::string& text, const std::string& file,
                              const Extensions& extensions = {});
 
-  /// The scene of a path, without its sweeps, as far as it can be read: for pictures of what load() refuses.
+  /// The scene of a path, without its sweeps, as far as it can be read: for pictures of scenes that load()
+  /// refuses.
   /// Throws InputError for a file that is not TOML.
   static SceneSpec load_readable(const std::filesystem::path& path);
 
-  /// The definitions of a file, [media.NAME] and the like, with those that its builders make: a scene, or a
-  /// file that holds nothing else. Throws InputError for a file that is not TOML, and for definitions that
-  /// are no tables.
+  /// The definitions of a file, [media.NAME] and the like, with those made by its builders: of a scene, or of
+  /// a file with definitions only. Throws InputError for a file that is not TOML, and for definitions that
+  /// are not tables.
   static SceneSpec load_definitions(const std::filesystem::path& path);
 
   /// Product of the numbers of swept values; 1 without a sweep.
@@ -66,9 +67,9 @@ class SceneFile {
   /// The same with further keys set after those of the sweeps, which may be the same keys.
   SceneSpec spec(std::size_t point, const std::vector<KeySetting>& settings) const;
   const std::string& text() const { return text_; }
-  /// What it was read with; lives as long as this file or a copy.
+  /// The extensions with which it was read; valid as long as this file or a copy.
   const Extensions& extensions() const { return *extensions_; }
-  /// Its own definitions that nothing in it names.
+  /// Its own definitions that are not used in it.
   std::vector<DefinitionRef> unused_definitions() const;
 
  private:

@@ -20,11 +20,11 @@ inline constexpr const char* kPhotonOutputColumns[] = {
     "direction_x", "direction_y", "direction_z", "wavelength_nm", "time_ns", "path_mm", "interactions"};
 
 struct PhotonOutputSpec {
-  std::vector<std::string> columns;       ///< of kPhotonOutputColumns; empty: all
-  std::uint64_t every = 1;                ///< one photon in so many, chosen by event and photon number alone
+  std::vector<std::string> columns;  ///< of kPhotonOutputColumns; empty: all
+  std::uint64_t every = 1;           ///< one photon in this many, chosen by event and photon number alone
   std::vector<config::NameRef> channels;  ///< readout channels, may have wildcards; empty: all
 
-  /// True when the list has everything of every detected photon.
+  /// True when the list has all columns of every detected photon.
   bool is_whole() const { return columns.empty() && every == 1 && channels.empty(); }
 };
 
@@ -44,7 +44,7 @@ inline constexpr core::Word<AcceleratorKind> kAcceleratorKinds[] = {{"auto", Acc
                                                                     {"embree", AcceleratorKind::embree},
                                                                     {"planes", AcceleratorKind::planes}};
 
-/// What stands for a round face whose surface is known.
+/// Representation of a round face whose surface is known.
 enum class CurvedFaces {
   exact,   ///< the surface itself
   facets,  ///< the triangles that approximate it
@@ -55,8 +55,8 @@ inline constexpr core::Word<CurvedFaces> kCurvedFaces[] = {{"exact", CurvedFaces
 
 /// State of polarisation that a photon carries.
 enum class PolarisationState {
-  linear,      ///< total reflection, films and metals leave no phase between the two polarisations
-  elliptical,  ///< phases are kept
+  linear,      ///< phases between s and p at total reflection, films and metals are not retained
+  elliptical,  ///< phases are retained
 };
 
 inline constexpr core::Word<PolarisationState> kPolarisationStates[] = {
@@ -65,18 +65,18 @@ inline constexpr core::Word<PolarisationState> kPolarisationStates[] = {
 struct RunSpec {
   std::uint64_t seed = 1;
   std::uint64_t max_interactions = 100000;  ///< boundary interactions per photon
-  std::optional<double> max_time_ns;
-  std::optional<int> threads;  ///< nothing: all cores
+  std::optional<double> max_time_ns;        ///< since the event; photons beyond it are cut
+  std::optional<int> threads;               ///< nothing: all cores
   /// Photons propagated at once, of transport::lane_widths(). No result depends on it, and no key sets it.
   std::optional<int> lane_width;
   double contact_tolerance_mm = 1e-4;
   AcceleratorKind accelerator = AcceleratorKind::automatic;
   CurvedFaces curved = CurvedFaces::exact;
   PolarisationState polarisation = PolarisationState::linear;
-  bool efficiency_at_birth = true;  ///< trace no photon that no sensor would convert, where nothing needs it
+  bool efficiency_at_birth = true;  ///< photons that no sensor would convert are not traced, where not needed
   std::uint64_t paths = 0;          ///< photons whose paths are recorded, per point
   bool photon_list = false;         ///< write every detected photon to the results
-  PhotonOutputSpec photons;         ///< which of them, and what of each
+  PhotonOutputSpec photons;         ///< selection of photons and columns
   bool photon_history = false;      ///< write the history of each, for reweighting
   std::optional<UntilSpec> until;   ///< ends a point before the photons or events of its source
   std::filesystem::path output;     ///< results file; empty: default of the command

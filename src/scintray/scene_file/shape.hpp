@@ -29,8 +29,8 @@ struct BoxSpec {
 
 /// Round faces of a mesh file of triangles.
 enum class RoundFacesOfFile {
-  facets,     ///< are the triangles
-  recognize,  ///< are the surface on which all corners lie within the contact tolerance, where there is one
+  facets,     ///< the triangles
+  recognize,  ///< the surface on which all corners lie within the contact tolerance, where there is one
 };
 inline constexpr core::Word<RoundFacesOfFile> kRoundFacesOfFile[] = {
     {"facets", RoundFacesOfFile::facets}, {"recognize", RoundFacesOfFile::recognize}};
@@ -131,7 +131,7 @@ struct TorusSpec {
 
 /// An ellipsoid of revolution about the z axis and the origin.
 struct SpheroidSpec {
-  double radius_mm = 0.0;       ///< across the axis
+  double radius_mm = 0.0;       ///< perpendicular to the axis
   double half_height_mm = 0.0;  ///< along it
   int subdivisions = 16;        ///< 20 subdivisions^2 triangles
   core::FileLocation where;

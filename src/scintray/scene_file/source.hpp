@@ -44,8 +44,9 @@ struct SourceSpec {
   std::optional<double> time_ns = 0.0;  ///< nothing: drawn from the decay times of the medium there
   core::FileLocation time_where;
   bool unpolarised = false;  ///< mean Fresnel reflectance at every surface; else each photon has a
-                             ///< polarisation, drawn uniformly across its direction
-  std::optional<core::Vec3> polarisation;  ///< unit: the electric field's part across the direction
+                             ///< polarisation, drawn uniformly perpendicular to its direction
+  std::optional<core::Vec3> polarisation;  ///< unit: the electric field, of which the component perpendicular
+                                           ///< to the direction is taken
   std::uint64_t photons = 0;
   std::optional<std::uint64_t> quick_photons;  ///< replaces `photons` in a quick run
   std::uint64_t photons_per_event = 1000;      ///< the last event may have fewer

@@ -13,7 +13,7 @@
 
 namespace scintray::scene_file {
 
-/// Words for step events in scene files and in the names of bins. "cut" stands for both events of photons
+/// Words for step events in scene files and in the names of bins. "cut" means both events of photons
 /// that were cut.
 inline constexpr core::Word<core::StepEvent> kEventWords[] = {
     {"emitted", core::StepEvent::emitted},
@@ -28,12 +28,12 @@ inline constexpr core::Word<core::StepEvent> kEventWords[] = {
     {"escaped", core::StepEvent::escaped},
     {"cut", core::StepEvent::cut_interactions}};
 
-/// Events of a photon that count.
+/// Step events of a photon that count: every one, the first or the last.
 enum class TallyEach { time, first, last };
 inline constexpr core::Word<TallyEach> kTallyEach[] = {
     {"time", TallyEach::time}, {"first", TallyEach::first}, {"last", TallyEach::last}};
 
-/// Direction of incidence on a face, seen from its part.
+/// Direction of incidence on a face, relative to its part.
 enum class FaceWay {
   out,
   in,
@@ -57,7 +57,7 @@ struct TallySpec {
   std::vector<config::NameRef> visited, not_visited;  ///< parts visited by the photon at any time
   std::vector<core::StepEvent> fate;                  ///< final fate of the photon; empty: any
   TallyEach each = TallyEach::time;
-  std::optional<core::Vec3> normal;  ///< of the plane of a grid across faces; nothing: the faces'
+  std::optional<core::Vec3> normal;  ///< of the plane of a grid over faces; nothing: the faces'
   TallyVariablePtr score;            ///< variable that is summed; null: photons
   std::vector<TallyAxisSpec> axes;
   core::FileLocation where;

@@ -45,7 +45,7 @@ TallyRangeSpec read_tally_range(const config::TomlTable& table, const TallyVaria
 TallyAxisSpec binned_axis(TallyVariablePtr variable, std::int64_t bins);
 /// Axis of a name, with the given names; without any, with the default ones of its kind.
 TallyAxisSpec named_axis(TallyVariablePtr variable, std::vector<config::NameRef> names = {});
-/// The two axes of a grid across a face: `pixels = [n, m]` or `pixel = "0.5 mm"`.
+/// The two axes of a grid over a face: `pixels = [n, m]` or `pixel = "0.5 mm"`.
 /// @param fallback  pixels in each direction where the table has neither; nothing: one is required
 std::vector<TallyAxisSpec> read_pixels(const config::TomlTable& table, const TallyVariables& variables,
                                        std::optional<std::int64_t> fallback);

@@ -29,8 +29,8 @@ struct StepView {
   core::Vec3 position = core::Vec3::Zero();
   core::Vec3 direction = core::Vec3::UnitZ();  ///< of unit length
   core::Vec3 start = core::Vec3::Zero();       ///< position of emission
-  /// Direction before the event, of unit length. NaN in tallies whose variables do not declare that they read
-  /// it (TallyVariable::direction_before).
+  /// Direction before the event, of unit length. NaN in tallies none of whose variables declares its use
+  /// (TallyVariable::direction_before).
   core::Vec3 direction_before = core::Vec3::UnitZ();
   // At a face that the tally names.
   double cos_before = 0.0;                  ///< |cosine| to the face's normal before the interaction
@@ -40,7 +40,7 @@ struct StepView {
   core::PartId source_part;  ///< the part of emission; likewise
 };
 
-/// Place of a part among the names of parts: the ambient space, which is no part, comes first.
+/// Place of a part among the names of parts; the ambient space, which is not a part, comes first.
 constexpr std::uint32_t place_of(core::PartId part) { return part.has_value() ? part.index() + 1 : 0; }
 
 /// Kind of a variable's values: numbers, or names of one kind.

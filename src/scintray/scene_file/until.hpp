@@ -1,5 +1,5 @@
 #pragma once
-/// [run] until: what ends a run before the photons or events of its source.
+/// [run] until: conditions that end a run before all photons or events of its source are traced.
 
 #include <cstdint>
 #include <optional>
@@ -36,15 +36,15 @@ inline bool is_of_events(UntilGoal goal) { return goal != UntilGoal::fate && goa
 
 /// Conditions, of which the first that holds ends a point. One at least is stated.
 struct UntilSpec {
-  UntilGoal of = UntilGoal::fate;          ///< the result that the errors are of
+  UntilGoal of = UntilGoal::fate;          ///< the result whose error is required
   core::Fate fate = core::Fate::detected;  ///< of UntilGoal::fate
   config::NameRef tally;                   ///< of UntilGoal::tally: its name
-  std::vector<std::string> bin;            ///< an entry an axis of the tally: a name, or a value within
-  std::optional<double> relative_error;    ///< standard error of the result over the result
-  std::optional<double> absolute_error;    ///< standard error of the result, in its internal unit
-  std::optional<double> wall_time_s;       ///< of the whole run
-  std::optional<std::uint64_t> photons;    ///< emitted, of a point
-  std::optional<std::uint64_t> events;     ///< of a point of an event source
+  std::vector<std::string> bin;  ///< an entry per axis of the tally: a name, or a value within the bin
+  std::optional<double> relative_error;  ///< standard error of the result over the result
+  std::optional<double> absolute_error;  ///< standard error of the result, in its internal unit
+  std::optional<double> wall_time_s;     ///< of the whole run
+  std::optional<std::uint64_t> photons;  ///< emitted, of a point
+  std::optional<std::uint64_t> events;   ///< of a point of an event source
   core::FileLocation where;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Finished block ranges of a run that goes on, kept so that it can be resumed.
+/// Finished block ranges of a run in progress, kept so that it can be resumed.
 
 #include <chrono>
 #include <filesystem>
@@ -13,7 +13,7 @@ namespace scintray::simulation {
 /// What is done with the checkpoints of an earlier run.
 enum class Resume {
   refuse,   ///< those of this very run are an error, so that none is lost by mistake; others are removed
-  resume,   ///< the run goes on after them; those of another run are an error
+  resume,   ///< the run continues after them; those of another run are an error
   restart,  ///< they are removed
 };
 

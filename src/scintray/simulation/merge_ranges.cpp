@@ -86,7 +86,7 @@ std::vector<Gap> gaps_between(const std::vector<Piece>& pieces, const RunOutline
 /// blocks.
 std::string missing_text(const std::vector<Gap>& gaps, const std::vector<RangeReader>& readers) {
   constexpr std::size_t kMostNamed = 20;
-  constexpr std::uint64_t kMostShards = 1'000'000;  // looked at one by one
+  constexpr std::uint64_t kMostShards = 1'000'000;  // examined one by one
   const RunOutline& run = readers.front().outline();
   const std::uint64_t of = readers.front().shard().of;
   const bool shards = of > 1 && of <= kMostShards &&

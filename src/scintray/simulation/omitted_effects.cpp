@@ -102,7 +102,7 @@ void add_birefringence(const scene::Scene& scene, std::vector<OmittedEffect>& ef
 }
 
 /// Round faces whose triangles are traced: how many, how far the steepest is from its surface, and what light
-/// they may let out.
+/// may escape through them.
 void add_facets(const scene::BuiltScene& built, std::vector<OmittedEffect>& effects) {
   struct Faces {
     std::size_t count = 0;

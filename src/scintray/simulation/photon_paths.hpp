@@ -15,7 +15,7 @@ namespace scintray::simulation {
 std::string step_text(const scene::Scene& scene, const transport::Step& step);
 
 /// Paths of the first `count` photons, as the run with the same seed traces them; of an event source, of
-/// photons evenly distributed over each of its first events with light, at most ten. Fewer where the source
+/// photons equally spaced in each of its first events with light, at most ten. Fewer where the source
 /// has fewer. The path of a photon that escapes ends a tenth of the scene's diagonal beyond its last
 /// boundary; one with more than tally::kMostPathSteps steps lacks those before its last.
 /// @param stop  ends the list early when it is set; may be null

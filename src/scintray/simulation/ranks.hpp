@@ -8,7 +8,7 @@
 
 namespace scintray::simulation {
 
-/// The processes of a run and the messages between them. Rank 0 hands out block ranges and receives their
+/// The processes of a run and the messages between them. Rank 0 assigns block ranges and receives their
 /// results; messages go between it and each of the others only. All functions are called by one thread.
 class Ranks {
  public:

@@ -83,7 +83,7 @@ inline constexpr core::Word<MapDirection> kMapDirections[] = {{"automatic", MapD
 
 /// Resolution and statistics of a map.
 struct ResponseSettings {
-  double pitch_mm = 1.0;                    ///< largest edge of a cell: edges divide those of the box evenly
+  double pitch_mm = 1.0;                    ///< largest edge of a cell: the box is divided into equal cells
   std::uint32_t photons_per_cell = 10'000;  ///< traced forward
   std::uint32_t delays_kept = 64;
   MapDirection direction = MapDirection::forward;
@@ -112,8 +112,8 @@ ResponseMap build_response_map(const scene::Scene& scene, const std::vector<core
                                bool unpolarised, const ResponseSettings& settings, const RunSettings& run,
                                const ResponseHooks& hooks = {});
 
-/// Why the light of a scene cannot be traced backward exactly: the first surface, medium or sensor in the way
-/// that does not let light pass in both directions alike. Empty: it can.
+/// Why the light of a scene cannot be traced backward exactly: the first surface, medium or sensor that is
+/// not reciprocal. Empty: it can.
 std::string why_not_backward(const scene::Scene& scene);
 
 /// Empty grids as of build_response_map, one a region. @throws InputError as build_response_map

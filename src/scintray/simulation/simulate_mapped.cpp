@@ -41,7 +41,8 @@ void require_energy(const scene_file::SceneSpec& spec) {
          "remove cherenkov, or trace the scene with `scintray run`"});
 }
 
-/// A map has the light of the medium, evenly from points: not that of particles, nor along steps.
+/// A map describes the medium's light emitted at points: not light that depends on the particle, nor light
+/// along steps.
 void refuse_particles(const scene_file::SceneSpec& spec, const scene::Scene& scene) {
   const auto* hits = std::get_if<scene_file::HitsSpec>(&spec.energy_source->kind);
   const auto any = [](const auto& columns) {

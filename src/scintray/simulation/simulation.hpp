@@ -112,7 +112,7 @@ class Simulation {
   /// complete, and the sink is to be a RangeFile.
   tally::RunResult run_all(ResultSink& sink, const SimulationHooks& hooks = {}, const Shard& shard = {});
   tally::RunResult run_all(const SimulationHooks& hooks = {});
-  /// Traces what rank 0, which is in run_all(), hands out to this process, until it ends the run. To be
+  /// Traces the blocks that rank 0, in run_all(), assigns to this process, until it ends the run. To be
   /// called within run_part(), as run_all() with ranks is.
   void serve(Ranks& ranks, const SimulationHooks& hooks = {});
 

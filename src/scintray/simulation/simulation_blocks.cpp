@@ -54,7 +54,7 @@ void Simulation::share_wall_time(const SimulationHooks& hooks) {
     const auto start = std::chrono::steady_clock::now();
     errors.push_back(trial_error(*tried, hooks.stop));
     seconds.push_back(seconds_since(start));
-    if (seconds_since(until_.start) > kTrialShare * *until->wall_time_s) return;  // too little to know
+    if (seconds_since(until_.start) > kTrialShare * *until->wall_time_s) return;  // too few for an estimate
   }
   until_.shares = detail::time_shares(seconds, errors);
 }

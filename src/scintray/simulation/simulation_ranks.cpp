@@ -1,4 +1,4 @@
-// A run by several processes: what rank 0 hands out, and what the others do.
+// A run by several processes: the assignment by rank 0, and the work of the others.
 #include <tbb/task_arena.h>
 
 #include <memory>

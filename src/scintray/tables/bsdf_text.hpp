@@ -41,8 +41,8 @@ struct BsdfSettings {
   BsdfAngles angles = default_bsdf_angles();
 };
 
-/// Of transmitted light, specular angles without a refracted ray are left out, and so is all light that is
-/// incident beyond the critical angle. Throws InputError when nothing is left.
+/// Scattering function of a surface table. For transmitted light, specular angles without a refracted ray are
+/// left out, and so is all light incident beyond the critical angle. Throws InputError when nothing is left.
 Bsdf bsdf_of(const optics::SurfaceTable& table, const BsdfSettings& settings);
 
 /// Solid angle of each cell weighted by the cosine to the normal (sr), [azimuth][radial], on both sides of
@@ -50,14 +50,15 @@ Bsdf bsdf_of(const optics::SurfaceTable& table, const BsdfSettings& settings);
 /// @param parts  subdivisions of each side of a cell
 std::vector<double> projected_cells(const BsdfAngles& angles, double specular_rad, int parts = 24);
 
+/// Writes the text; SystemError when it cannot be written.
 void write_bsdf(const std::filesystem::path& path, const Bsdf& bsdf, const optics::SurfaceTable& table,
                 const BsdfSettings& settings);
 
 /// The scattering function of a file: reflected light of one orientation of the sample, at one wavelength.
 /// Azimuths may extend to 360 deg. Throws InputError, at the line of `file`, for a word or a number that is
 /// out of place or out of range, for transmitted light, several orientations and tristimulus values, and
-/// where the values of an angle of incidence add up to another share of the light than stated (TIS), by a
-/// fifth or more.
+/// where the values of an angle of incidence integrate to a share that differs from the stated one (TIS) by a
+/// fifth or more (chosen).
 Bsdf parse_bsdf(std::string_view content, const std::string& file);
 
 /// The values above the horizon and above 0, as measured values without a wavelength (0 nm). A value of 0 is

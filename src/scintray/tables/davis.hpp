@@ -1,7 +1,7 @@
 #pragma once
 /// The pair of files of Geant4's LUTDAVIS model: X_LUTR (reflectances) and X_LUT (directions), as text
 /// (.dat, Geant4's data up to 2.1) or that text in a zlib stream (.z, from 2.2 on). docs/exchange.md
-/// describes the layout and what is lost.
+/// describes the layout and what the format cannot hold.
 ///
 /// Source of the layout: Geant4's own reader (G4OpticalSurface.cc,
 /// G4OpBoundaryProcess::DielectricLUTDAVIS, release 11).
@@ -54,7 +54,8 @@ struct DavisSettings {
 /// Writes a table as a pair. Each number represents the incidences of one whole degree, weighted as diffuse
 /// light is incident on a surface (sin x cos). Light absorbed in the table appears as transmitted.
 ///
-/// @return the information that the pair does not hold, one sentence each, for its user
+/// @return for the user, one sentence for each property of the table that the pair does not hold
+/// @throws InputError as davis_files and TableSide, SystemError when a file cannot be written
 std::vector<std::string> write_davis(const std::filesystem::path& directions,
                                      const optics::SurfaceTable& table, const DavisSettings& settings = {});
 
@@ -66,8 +67,8 @@ struct DavisPair {
 };
 
 /// The numbers of a pair, read and checked from the contents of the two files. InputError on damaged, short
-/// or long files, numbers that are not finite or out of range, light sent to the wrong side, and degrees for
-/// which Geant4 would search for a direction without end; `files` is for messages.
+/// or long files, numbers that are not finite or out of range, light on the wrong side, and degrees for
+/// which Geant4 would search endlessly for a direction; `files` is for messages.
 DavisPair parse_davis(std::string_view directions, std::string_view reflectances, const DavisFiles& files,
                       Unreflected unreflected, DavisLayout layout = {});
 
@@ -76,7 +77,7 @@ DavisPair parse_davis(std::string_view directions, std::string_view reflectances
 optics::SurfaceTable davis_table(const DavisPair& pair, const ImportSettings& settings,
                                  const std::string& name);
 
-/// The table of a pair of files: both of the above.
+/// The table of a pair of files: parse_davis and davis_table. Throws InputError as these.
 optics::SurfaceTable read_davis(const std::filesystem::path& directions, const ImportSettings& settings);
 
 }  // namespace scintray::tables

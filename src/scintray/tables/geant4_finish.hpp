@@ -30,8 +30,8 @@ bool is_davis_finish(const std::string& finish);
 std::optional<std::string> data_stem(const std::string& finish);
 
 /// File of a finish in a folder: STEM.z, or STEM.dat where there is no such file (data sets up to 2.1).
-/// Throws InputError with the folder, the names that were looked for and what to do when the folder or the
-/// file is not there, and for the bare finishes.
+/// Throws InputError with the folder, the expected names and a hint when the folder or the
+/// file does not exist, and for the bare finishes.
 std::filesystem::path finish_file(const std::filesystem::path& folder, const std::string& finish);
 
 }  // namespace scintray::tables

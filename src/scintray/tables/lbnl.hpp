@@ -39,8 +39,8 @@ std::vector<float> parse_lbnl(std::string_view content, const std::string& file,
 optics::SurfaceTable lbnl_table(const std::vector<float>& values, const ImportSettings& settings,
                                 const std::string& name);
 
-/// The table of a file: both of the above. The error for a missing file with the name of one of the bare
-/// finishes, for which no data exist, states this.
+/// The table of a file: parse_lbnl and lbnl_table. Throws InputError as these; the error for a missing file
+/// with the name of one of the bare finishes, for which no data exist, states this.
 optics::SurfaceTable read_lbnl(const std::filesystem::path& path, const ImportSettings& settings);
 
 }  // namespace scintray::tables

@@ -17,11 +17,11 @@ struct NumberCount {
 /// The numbers of `content`, a text or one zlib stream (RFC 1950) of such a text, which is detected. Memory
 /// grows with the content, at most to `count.most` numbers; the unpacked stream is read in pieces and never
 /// kept. InputError, naming `file` and the number, when a word is not a number or not finite, when there are
-/// too few or too many, and when the stream is damaged, unpacks to more than 32 bytes a number, or is
+/// too few or too many, and when the stream is damaged, unpacks to more than 32 bytes per number, or is
 /// followed by other data.
 std::vector<float> parse_numbers(std::string_view content, const std::string& file, NumberCount count);
 
-/// The content of a file of `count` numbers; InputError when it cannot be read or is larger than 32 bytes a
+/// The content of a file of `count` numbers; InputError when it cannot be read or is larger than 32 bytes per
 /// number.
 std::string load_number_file(const std::filesystem::path& path, NumberCount count);
 

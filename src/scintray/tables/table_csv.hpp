@@ -1,5 +1,5 @@
 #pragma once
-/// A surface table as comma-separated values, one row a direction.
+/// A surface table as comma-separated values, one row per direction.
 
 #include <filesystem>
 
@@ -11,8 +11,8 @@ namespace scintray::tables {
 /// way, middle of the cell in polar angle and |azimuth| (deg), probability density of the outgoing direction
 /// (1/sr, per incident photon), and its standard error from the rays of the table. Cells are 5 deg of
 /// polar angle by 15 deg of |azimuth|, on both sides of the plane of incidence; the densities times the
-/// cells' solid angles add up to the reflectance or transmittance. Lines that begin with # describe what the
-/// table is for.
+/// cells' solid angles add up to the reflectance or transmittance. Lines that begin with # describe the
+/// surface of the table. SystemError when it cannot be written.
 void write_table_csv(const std::filesystem::path& path, const optics::SurfaceTable& table);
 
 }  // namespace scintray::tables

@@ -8,24 +8,24 @@
 
 namespace scintray::tables {
 
-/// Ways in which light leaves a surface.
+/// The side on which light leaves a surface.
 enum class Leaving { reflected, transmitted };
 
-/// Index of the slice of a table at one of its wavelengths; without a wavelength, the only one. InputError
-/// when there is none such, or several and none was requested.
+/// Index of the slice of a table at one of its wavelengths (nm); without a wavelength, the only one.
+/// InputError when the table has no such wavelength, or has several and none is requested.
 std::size_t slice_at(const optics::SurfaceTable& table, std::optional<double> wavelength_nm);
 
 /// Light incident from one side. Agrees with SurfaceTable::scatter, which draws at random; here the caller
-/// supplies the coordinates in the distribution, so that points can be spread evenly.
+/// supplies the coordinates in the distribution, so that points can be distributed uniformly.
 class TableSide {
  public:
   /// `table` must outlive this; `slice` as from slice_at. Throws InputError for a table of a surface with
-  /// direction, which is no function of the incidence angle alone, and for one made reciprocal.
+  /// direction, which is not a function of the incidence angle alone, and for one made reciprocal.
   TableSide(const optics::SurfaceTable& table, optics::Side side, std::size_t slice = 0);
 
-  /// Share of the light at an incidence (rad) that leaves this way.
+  /// Reflectance or transmittance at an incidence (rad).
   double share(Leaving way, double incidence_rad) const;
-  /// Share that is absorbed at the surface.
+  /// Absorptance at an incidence (rad).
   double absorptance(double incidence_rad) const;
   /// True when the table has directions for light that leaves this way at this incidence.
   bool has_directions(Leaving way, double incidence_rad) const;

@@ -20,7 +20,7 @@ void merge_each(std::vector<T>& into, const std::vector<T>& from) {
   for (std::size_t i = 0; i < into.size(); ++i) into[i].merge(from[i]);
 }
 
-/// The same where either may be empty, which stands for zeros.
+/// The same where either may be empty, which means zeros.
 void add_to_some(std::vector<std::uint64_t>& into, const std::vector<std::uint64_t>& from) {
   if (into.empty()) into.resize(from.size());
   if (!from.empty()) add_each(into, from);

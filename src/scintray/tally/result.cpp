@@ -121,7 +121,7 @@ core::Estimate PointResult::not_detected_fraction(const SensorFaceCount& at) con
   const core::Estimate share = not_detected_fraction(at.not_detected, at.detected);
   if (event_fates.events < 2 || at.events_detected.squares + at.events_not_detected.squares == 0)
     return share;
-  // Of each event the photons that are not detected, and of those detected the part that stands for such.
+  // Of each event the photons that are not detected, and of those detected the part that represents such.
   const double weight = 1.0 - birth_efficiency;
   const double squares = static_cast<double>(at.events_not_detected.squares) +
                          2.0 * weight * static_cast<double>(at.events_both) +

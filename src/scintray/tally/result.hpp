@@ -237,7 +237,7 @@ struct PointResult : PointFacts {
   /// The error is that of independent photons, or of independent events where there are two or more
   /// (event_fates); at least that of one photon where none or all have the fate.
   core::Estimate fraction(core::Fate fate) const;
-  /// Share of the emitted photons that some of the detected photons stand for, with the error of independent
+  /// Share of the emitted photons that some of the detected photons represent, with the error of independent
   /// photons.
   core::Estimate detected_fraction(std::uint64_t detected) const;
   /// Share of the emitted photons that reach a sensor and are not detected, from the counts there.

@@ -14,8 +14,8 @@
 namespace scintray::topography {
 
 /// Version of the content of tables, a part of the key of cached ones (materials/table_key.hpp). Raise it
-/// with every change after which the same recipe or map file, with the same settings, makes another table: in
-/// the tracing, the synthesis, the readers of height maps or their preparation. tests/topography/
+/// with every change after which the same recipe or map file, with the same settings, gives a different
+/// table: in the tracing, the synthesis, the readers of height maps or their preparation. tests/topography/
 /// table_content_test.cpp fails when such a change is made without.
 inline constexpr int kTableContentVersion = 1;
 
@@ -27,19 +27,19 @@ struct TableSettings {
   std::uint64_t rays = 2000;  ///< per incidence angle and azimuth step
   std::uint64_t seed = 1;
   bool refine = true;  ///< bisect intervals in which the reflectance changes fast, as at a critical angle
-  double refine_change = 0.05;  ///< change of reflectance above which an interval is bisected
+  double refine_change = 0.05;  ///< change of reflectance above which an interval is bisected (chosen)
   double refine_down_to_rad = 0.1 * core::kDegree;  ///< intervals not wider than this are not bisected
-  double grazing_rad = 89.9 * core::kDegree;        ///< where the node at 90 deg is traced
+  double grazing_rad = 89.9 * core::kDegree;        ///< angle at which the node at 90 deg is traced (chosen)
 
   /// A slice per azimuth step of incidence on the map, for anisotropic surfaces; `rays` are then traced
   /// for each incidence angle and slice.
   bool directional = false;
-  /// One-sigma error of a node's reflectance (and absorptance) until which rays are added; 0: the number
+  /// Standard error of a node's reflectance (and absorptance) down to which rays are added; 0: the number
   /// of rays is fixed.
   double target_error = 0.0;
   std::uint64_t most_rays = 64;  ///< limit of the added rays, as a multiple of `rays`
   /// For lossless surfaces only: the table is made exactly reciprocal (ReciprocalKernel), each of its states
-  /// lit with half as many rays as a node. Not together with `directional`.
+  /// traced with half as many rays as a node. Not together with `directional`.
   bool reciprocal = false;
 };
 

@@ -39,7 +39,7 @@ struct ReadOptions {
   std::optional<double> height_unit_um;  ///< um per unit of the numbers in the file
   std::optional<std::string> channel;    ///< by name, or the unique beginning of a name
   bool periodic = false;                 ///< the map is one period of a periodic surface
-  bool query_gwyddion = true;            ///< other formats go to the program gwyddion where it is installed
+  bool query_gwyddion = true;            ///< other formats are converted by gwyddion where it is installed
 };
 
 /// Height map of a file; the format is detected from the content, also within gzip.

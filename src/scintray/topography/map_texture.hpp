@@ -53,7 +53,7 @@ struct MapTexture {
 MapTexture map_texture(const HeightMap& map);
 
 /// Reasons why a map describes its surface poorly, in sentences: pitch too large for its slopes (the rms
-/// slope over two pitches is more than 10 % below that over one, so that the slope found depends on the
+/// slope over two pitches is more than 10 % below that over one, so that slopes depend on the
 /// pitch), too few autocorrelation lengths (fewer than 10 Sal in the shorter side, with which Sq is known to
 /// about 7 %), missing points. Empty when there is nothing to report.
 std::vector<std::string> map_warnings(const HeightMap& map, const MapStatistics& statistics,

@@ -1,6 +1,6 @@
 #pragma once
-/// Preparation of a raw height map: cropping, levelling and filters. Each adds a
-/// line to the map's steps. Missing points (NaN) are left out and remain missing.
+/// Preparation of a raw height map: cropping, levelling and filters. Each adds a line to the map's steps.
+/// Missing points (NaN) are left out and remain missing.
 
 #include <cstdint>
 

@@ -26,8 +26,8 @@ struct FractureRelief {
   double spacing_um = 0.0;       ///< mean distance of bowls, 1/sqrt(density); 0: no fracture
   double rise_um = 0.0;          ///< height of a bowl at a distance of spacing / 2
   double exponent = 2.0;         ///< 2: paraboloids; larger: flat floors, steep rims
-  double depth_spread_um = 0.0;  ///< depths are uniform within +- this
-  double size_spread = 0.0;      ///< radii are uniform within 1 +- this, in [0, 1)
+  double depth_spread_um = 0.0;  ///< depths are uniformly distributed within +- this
+  double size_spread = 0.0;      ///< relative radii are uniformly distributed within 1 +- this, in [0, 1)
 };
 
 /// Straight scratches left by polishing: grooves of the profile -depth exp(-(distance / width)^2)
@@ -43,7 +43,7 @@ struct ScratchRelief {
 /// frequencies and a power law at high ones: S(f) = A' / (1 + (B f)^2)^((C + 1) / 2), with
 /// A' = Sq^2 B^2 (C - 1) / (2 pi) (E. L. Church, P. Z. Takacs and T. A. Leonard 1989, Proc. SPIE
 /// 1165, 136, two-dimensional form; A' follows from the integral of 2 pi f S over all f being Sq^2).
-/// A map holds the part of Sq between its width and its pitch.
+/// A map contains the part of Sq between its width and its pitch.
 struct KCorrelationRelief {
   double rms_height_um = 0.0;   ///< Sq over all frequencies; 0: none
   double knee_length_um = 1.0;  ///< B: the power law begins at the spatial frequency 1/B
@@ -74,7 +74,7 @@ struct SynthesisRecipe {
 
 /// A ground crystal, heavy-tailed in slope: on average over seeds 1 to 5 the mean visible slope is 18 deg
 /// at normal incidence and 35 deg at grazing (88.5 deg), heights within about +-3 um (Roncali and
-/// Cherry 2013, Phys. Med. Biol. 58, 2185, section 3.1), and Sq is 0.45 um, which is no part of that
+/// Cherry 2013, Phys. Med. Biol. 58, 2185, section 3.1), and Sq is 0.45 um, which is not from that
 /// source. Spacing, spreads and correlation length were chosen so that heights remain within those
 /// limits, the rest was fitted by
 ///     scintray map synthesize ground --fit-normal "18 deg" --fit-grazing "35 deg"

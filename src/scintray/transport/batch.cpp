@@ -13,8 +13,8 @@ namespace scintray::transport {
 
 namespace {
 
-/// Photons on their way at once: enough to fill the lanes with photons of one kind of region, few enough for
-/// the first level of the cache.
+/// Photons in flight at once: enough to fill the lanes with photons of one kind of region, few enough for the
+/// first level of the cache.
 constexpr std::size_t kTravellers = 128;
 
 core::PlainVec3 vec(const double (&from)[3]) { return {from[0], from[1], from[2]}; }
@@ -29,7 +29,7 @@ class Batch::Tracing {
   const BatchCounts& counts() const { return counts_; }
 
  private:
-  /// A photon on its way.
+  /// A photon in flight.
   struct Traveller {
     source::Photon photon;
     core::Rng rng{0, core::StreamKind::photon, 0};
@@ -49,11 +49,12 @@ class Batch::Tracing {
   void trace_alone(std::uint32_t traveller);
   void trace_in_lanes();
   void propagate(const Waiting* first, const Waiting* last);
-  /// All of `work` but the results, in its place: copies of what was just written wait for it.
+  /// Sets all of `work` but the results, in place: copying what was just written would stall.
   void set_work(std::uint32_t traveller, const LaneFaces& faces, LaneWork& work);
   void set_critical_angles(Traveller& traveller, const LaneFaces& faces, double* least_sin2) const;
   void finish(const LaneWork& work, const LaneFaces& faces, std::uint32_t traveller);
-  /// True when the photon goes on after the step; else its end is noted, and the next photon takes its place.
+  /// True when the photon continues after the step; else its end is recorded, and the next photon replaces
+  /// it.
   bool goes_on(Traveller& traveller, const Step& taken);
   void replace(std::uint32_t traveller);
 

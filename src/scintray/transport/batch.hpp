@@ -18,16 +18,16 @@ enum class LaneKind {
   surfaces,  ///< they stay in lanes at rough faces and reflectors too (lane_pool.hpp)
 };
 
-/// The fastest for a region at a width of lane_widths(). No result depends on it.
+/// The fastest kernel for a region at a width of lane_widths(). No result depends on it.
 LaneKind lane_kind(const scene::Scene& scene, core::RegionId region, int lane_width);
 
-/// Of all regions of a scene.
+/// Kernels of all regions of a scene.
 using LaneKinds = core::IdVector<core::RegionId, LaneKind>;
 LaneKinds lane_kinds(const scene::Scene& scene, int lane_width);
 
 /// The end of a photon.
 struct TracedPhoton {
-  source::Photon photon;          ///< as it ended
+  source::Photon photon;          ///< its final state
   Step last;                      ///< its last step, unless it was cut
   std::optional<core::Fate> cut;  ///< the fate by a limit that ended it; none: last.event is its fate
 };
@@ -41,11 +41,11 @@ struct BatchCounts {
   std::uint64_t grouped = 0, groups = 0;
 };
 
-/// Traces photons that need no record of their steps: the same photons, to the last bit, as step() does one
-/// by one, for any width of the lanes. Photons in smooth regions that are bounded by planes, or by a convex
+/// Traces photons without a record of their steps, bit-identically to step() one by one, for any width of the
+/// lanes. Photons in smooth regions that are bounded by planes, or by a convex
 /// body of planes and quadrics, are propagated in lanes (lane_kernel.hpp); in those with rough faces and
-/// reflectors they stay in lanes through what happens at their surfaces (lane_pool.hpp); everything else is
-/// done for each alone.
+/// reflectors they stay in lanes through interactions at their surfaces (lane_pool.hpp); everything else is
+/// done for each photon separately.
 class Batch {
  public:
   /// @param limits      without `passed`

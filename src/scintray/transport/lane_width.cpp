@@ -9,7 +9,7 @@ namespace scintray::transport {
 namespace {
 
 /// Eight lanes are the default where the processor has an extension of AVX-512 that came with Ice Lake and
-/// Zen 4. Processors of before, of which Skylake-X is one, lower their clock for wide vectors; Ice Lake by
+/// Zen 4. Earlier processors, such as Skylake-X, lower their clock for wide vectors; Ice Lake by
 /// 0.1 GHz when one core works and not when several do, Rocket Lake never (T. Downs 2020, "Ice Lake AVX-512
 /// Downclocking", travisdowns.github.io).
 int widest_by_default() {

@@ -289,8 +289,8 @@ Step interact_at(const scene::Scene& scene, std::uint32_t triangle, source::Phot
 
 Step end_of_step(const scene::Scene& scene, const Propagation& propagation, source::Photon& photon,
                  core::Rng& rng, source::PhotonRecords* records) {
-  // Everything that follows writes into the one result: a copy of what was just written byte by byte waits
-  // for it.
+  // All that follows writes into this one result: copying what was just written byte by byte would stall
+  // until the writes are complete.
   const core::RegionId from = photon.region;
   Step result;
   switch (propagation.end) {

@@ -1,5 +1,5 @@
 #pragma once
-/// One step of one photon, and what happened in it: the language between the tracer and the tallies.
+/// One step of one photon and its event: the interface between transport and tallies.
 
 #include <cstdint>
 #include <limits>

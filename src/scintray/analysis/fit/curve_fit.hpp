@@ -79,16 +79,16 @@ struct CurveFit {
 /// Least squares by GSL's trust region method (Levenberg-Marquardt; gsl_multifit_nlinear) with these
 /// additions for a noisy curve:
 ///  - every parameter is searched in its FitVariable;
-///  - parameters are kept in their bounds by p = low + (high - low) (1 + sin x) / 2 (F. James and M. Roos
+///  - parameters are kept within their bounds by p = low + (high - low) (1 + sin x) / 2 (F. James and M. Roos
 ///    1975, Comput. Phys. Commun. 10, 343);
 ///  - slopes are central differences over about one standard error of the parameter to each side, and over
 ///    more where the measured noise of a difference is above a tenth of it;
 ///  - weights contain the Monte Carlo errors in quadrature and are fixed during a search, which is repeated
 ///    until they converge;
 ///  - it ends where chi-square is expected to decrease by less than a tenth, or where it no longer decreases:
-///    the noise of the curve then determines the steps;
-///  - a search converges where the noise happens to agree with the measurement; so the estimate is Newton's
-///    step from there with other random numbers, whose residuals are those of a fit;
+///    the steps then follow the noise of the curve;
+///  - a search converges where the noise happens to agree with the measurement; so the estimate is a
+///    Gauss-Newton step from there with other random numbers, whose residuals have the statistics of a fit;
 ///  - errors: see covariance_of. The scale is eliminated (G. H. Golub and V. Pereyra 1973, SIAM J. Numer.
 ///    Anal. 10, 413).
 /// Deterministic for a deterministic model. @throws InputError for fewer points than parameters (and one more

@@ -20,7 +20,7 @@ struct FitRecord {
   CurveFit fit;
   std::uint64_t seed = 0;
   std::uint64_t traced = 0;  ///< photons, events or rays at each point of each curve
-  std::string thing;         ///< of which: "photons", "events", "rays"
+  std::string thing;         ///< their kind: "photons", "events", "rays"
   double wall_seconds = 0.0;
   std::vector<std::string> notes;  ///< warnings of the scene
   /// PointResult::omitted at the start of the search; nothing for a reflectance.

@@ -17,7 +17,8 @@ namespace {
 /// Rays of one block; with the order of the sums, it makes readings reproducible.
 constexpr std::uint64_t kBlockRays = 16384;
 
-/// Sums of directions on one side, components forward, across, along.
+/// Sums of directions on one side, components forward (in the plane of incidence), perpendicular to it, and
+/// along the normal.
 struct DirectionSums {
   std::uint64_t rays = 0;
   core::Vec3 first = core::Vec3::Zero();

@@ -10,8 +10,8 @@
 namespace scintray::analysis {
 
 /// Cells of a hemisphere: rings of equal steps of the polar angle, each divided into equal steps of azimuth
-/// so that a cell is about as wide as high. Azimuth 0 is the middle of a ring's first cell, so the plane of
-/// incidence is not on an edge of a cell there.
+/// so that a cell has about equal width and height. Azimuth 0 is the middle of a ring's first cell, so the
+/// plane of incidence is not on an edge of a cell there.
 class HemisphereGrid {
  public:
   static constexpr int kRings = 45;  ///< of 2 deg
@@ -33,11 +33,11 @@ class HemisphereGrid {
   std::vector<std::size_t> first_;  ///< index of each ring's first cell, and the number of all
 };
 
-/// The grid that all readings share.
+/// The grid common to all readings.
 const HemisphereGrid& hemisphere_grid();
 
-/// Directions on one side, as in an instrument: polar angle from that side's outward normal;
-/// azimuth 0 forward, in the plane of incidence, the side of light from a mirror or a flat face.
+/// Directions on one side, as measured by a goniometer: polar angle from that side's outward normal;
+/// azimuth 0 forward, in the plane of incidence, on the side of specular reflection and of refraction.
 struct DirectionCounts {
   /// Bins of the in-plane profile: 1 deg from -90 to 90 deg, forward positive.
   static constexpr int kProfileBins = 180;
@@ -54,7 +54,7 @@ struct DirectionCounts {
   std::uint64_t total() const;
 };
 
-/// Density in a cell or a profile's bin: share of the rays shot, per sr, with its binomial error.
+/// Density in a cell or a profile's bin: share of the incident rays, per sr, with its binomial error.
 core::Estimate density_per_sr(std::uint64_t count, std::uint64_t rays, double solid_angle_sr);
 
 /// Solid angle (sr) of one bin of the in-plane profile: the band |across| <= sin(half_width), cut at

@@ -25,7 +25,7 @@ struct SampleSurface {
 };
 
 /// The surface with these names, including its table.
-/// @param on_the_spot  rays on height maps and recipes are traced on the map itself, without a table
+/// @param on_the_spot  rays are traced on the height map or recipe itself, without a table
 /// @throws InputError for unknown names (with the nearest), for a medium, gap or reflector without a value at
 ///         the wavelength, and for errors of the definitions
 SampleSurface make_sample_surface(const materials::MaterialDatabase& database,

@@ -33,16 +33,16 @@ struct ChannelLayout {
 };
 
 /// Channels sorted by their depth: all within 0.1 mm are one plane; two groups, each no deeper than a tenth
-/// of the distance over which they are spread, are two ends. Empty for other arrangements. Without an axis
-/// depth is along the axis of the world in which the channels' positions differ least.
+/// of the distance over which they are spread, are two ends (limits chosen). Empty for other arrangements.
+/// Without an axis depth is along the axis of the world in which the channels' positions differ least.
 std::optional<ChannelLayout> layout_of(std::span<const core::Vec3> channels_mm,
                                        const std::optional<DepthAxis>& axis);
 
 struct AngerOptions {
   /// Exponent of the light in the weights: above 1, near channels count more.
   double power = 1.0;
-  /// Channels below this share of the event's brightest one are left out, 0 to below 1: reduces the bias to
-  /// the middle by light that is everywhere.
+  /// Channels below this share of the event's brightest one are left out, 0 to below 1: reduces the bias
+  /// towards the middle by uniformly distributed light.
   double threshold = 0.0;
 };
 

@@ -22,6 +22,7 @@ struct Confusion {
   core::Estimate share_right_of(std::size_t truth) const;  ///< of the events of one class
 };
 
+/// Confusion matrix of two classifications of the same events.
 /// @throws std::invalid_argument when the sizes differ or a class is not below `classes`
 Confusion confusion_of(std::span<const std::size_t> truth, std::span<const std::size_t> assigned,
                        std::size_t classes);
@@ -33,8 +34,8 @@ struct LayerAnalysis {
   Confusion confusion;             ///< of the events that did not set the thresholds
 };
 
-/// Thresholds that minimise the wrong decisions between neighbouring layers of the even events, evaluated on
-/// the odd ones. @param layer  of each event, 0 to layers - 1  @param value  of each event, finite
+/// Thresholds that minimise the misclassifications between neighbouring layers of the even events, evaluated
+/// on the odd ones. @param layer  of each event, 0 to layers - 1  @param value  of each event, finite
 /// @throws std::invalid_argument when sizes differ, a layer is not below `layers`, or a layer has no event
 /// among the even ones
 LayerAnalysis classify_layers(std::span<const std::size_t> layer, std::span<const double> value,

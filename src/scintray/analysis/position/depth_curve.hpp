@@ -41,7 +41,7 @@ struct DepthCurve {
 /// @throws std::invalid_argument without points, or for a value or an error that is not positive
 DepthCurve depth_curve(std::vector<DepthPoint> points, double reference_mm);
 
-/// Depth curve with one point a slice of equal thickness between the least and the greatest depth: the
+/// Points of a depth curve, one per slice of equal thickness between the least and the greatest depth: the
 /// photopeak's position where a fit locates it in every slice, the mean in all of them otherwise (a curve
 /// never mixes the two). Slices with fewer than `least` values are left out; the depth of a slice is the mean
 /// depth of its events.

@@ -79,7 +79,7 @@ DoiCalibration monotone_calibration(const Calibrated& calibrated) {
   const std::vector<double> fitted = isotonic(values, weights);
   DoiCalibration calibration;
   for (std::size_t i = 0; i < fitted.size();) {
-    // Pooled slices share one ratio: it stands for their middle.
+    // Pooled slices share one ratio, which is assigned to their mean depth.
     std::size_t end = i;
     double depth = 0.0;
     while (end < fitted.size() && fitted[end] == fitted[i]) depth += calibrated.slices[end++].depth_mm;

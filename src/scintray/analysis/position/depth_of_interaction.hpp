@@ -15,7 +15,7 @@ enum class EndRatio {
   logarithm  ///< ln(A / B), linear in depth where light is attenuated exponentially towards both ends
 };
 
-/// NaN unless both ends saw light.
+/// Ratio of the light at two ends; NaN unless both have light.
 double end_ratio(EndRatio kind, double a, double b);
 
 enum class DoiCalibrationKind {

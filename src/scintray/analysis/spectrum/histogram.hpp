@@ -27,8 +27,8 @@ struct Histogram {
 Histogram make_histogram(std::span<const double> values, double low, double high, std::size_t bins);
 
 /// Histogram with bins of about `width` over the values from `low` to `high`. Whole numbers (photons counted)
-/// get bins of a whole width with edges halfway between numbers: other bins would contain different counts of
-/// numbers, a comb that is not in the data. At most 10,000 bins.
+/// get bins of a whole width with edges halfway between numbers: other bins would contain unequal numbers of
+/// integers, a comb that is not in the data. At most 10,000 bins.
 Histogram make_histogram_of_width(std::span<const double> values, double low, double high, double width);
 
 /// Histogram with the bin width of Freedman and Diaconis: twice the distance between the quartiles over the

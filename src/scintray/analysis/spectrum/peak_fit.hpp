@@ -37,7 +37,7 @@ struct PeakFit {
   PeakBackground background = PeakBackground::none;
   core::Estimate position, sigma, events;
   core::Estimate relative_fwhm;  ///< FWHM over position
-  double deviance = 0.0;         ///< twice the log of the likelihood ratio to a model that fits every bin
+  double deviance = 0.0;         ///< twice the log likelihood ratio to the saturated model
   core::ChiSquare goodness;      ///< Pearson's, over bins merged until each expects 10 counts
 };
 

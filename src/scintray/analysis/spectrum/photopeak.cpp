@@ -228,8 +228,8 @@ void fit_until_stable(std::span<const double> sorted, const PeakPlace& place, co
 }
 
 /// Errors by leaving out groups: the model has not the exact shape of a spectrum of gammas, and the range and
-/// the background that are fitted depend on the values, of which the errors of one fit know nothing. They
-/// stay those of the fit where one of the others does not converge.
+/// the background that are fitted depend on the values, which the errors of a single fit do not include.
+/// Where one of the other fits does not converge, the errors of the fit remain.
 void leave_out_groups(const GroupedValues& values, const PeakPlace& place, const PhotopeakOptions& options,
                       PeakFit& fit) {
   PeakPlace found = place;

@@ -17,18 +17,17 @@ enum class PeakStatus {
   no_peak,        ///< no peak above the continuum
   edge_of_range,  ///< the peak is truncated by the end of the data or of the window
   not_converged,
-  poor_fit,  ///< the shape differs (p below 1e-4): position and width are only descriptive
+  poor_fit,  ///< the shape differs (p below 1e-4, chosen): position and width are only descriptive
 };
 /// Text of a status: "trusted", "too few events", ...
 const char* status_name(PeakStatus status);
 
 struct PhotopeakOptions {
-  /// Range in which a peak is searched and fitted; without, the highest in energy of those that have at
-  /// least a tenth of the height of the highest.
+  /// Range in which a peak is searched and fitted; without it, the peak of highest energy among those with at
+  /// least a tenth (chosen) of the height of the highest.
   std::optional<std::array<double, 2>> window;
-  /// Background model; without, the simplest that the data do not reject: a term is added when twice the
-  /// log likelihood ratio is above 9 (once in 700 without cause: S. S. Wilks 1938, Ann. Math. Statist. 9,
-  /// 60).
+  /// Background model; without it, the simplest that the data do not reject: a term is added when twice the
+  /// log likelihood ratio is above 9 (by chance once in 700: S. S. Wilks 1938, Ann. Math. Statist. 9, 60).
   std::optional<PeakBackground> background;
 };
 
@@ -44,20 +43,21 @@ struct Photopeak {
   /// of Statistics). 0 without a fit.
   double misfit() const;
   /// Usable for selecting pulses and for depth curves: trusted, or a poor fit only because many pulses reveal
-  /// a small difference (misfit below 0.01, a tenth in the root mean square).
+  /// a small difference (misfit below 0.01, chosen: a tenth in the root mean square).
   bool locates_peak() const;
 };
 
 /// Search and fit of the photopeak. The search smooths the spectrum with decreasing widths and uses the first
-/// width finer than half the peak found; a maximum counts when it is 4 standard errors above the
+/// width finer than half the peak found; a maximum counts when it is 4 standard errors (chosen) above the
 /// valleys beside it. The fit spans from 3 sigma below the peak to 4 sigma above, in bins of sigma / 4; where
 /// a continuum rises within that, from 1.6 times the distance at which the smoothed spectrum has fallen to a
 /// quarter of its height above the valley (1.5 to 3 sigma). It is repeated until the span agrees with the
-/// result. The errors are those of the jackknife over quarters of the values, in 12 random divisions: they
-/// hold where the model has not the shape of the spectrum too, and include what the choice of the span and of
-/// the background adds; where a fit of three quarters fails, they are the fit's own. That of `events` takes
-/// the number of pulses as Poisson's.
-/// @param values  one a pulse, any positive unit; values that are not finite are left out
+/// result. These limits are chosen such that pulls over a thousand runs have width 1 (docs/decisions.md).
+/// The errors are those of the jackknife over quarters of the values, in 12 random divisions: they
+/// hold also where the model does not describe the spectrum exactly, and include the contributions of the
+/// choice of span and background; where a fit of three quarters fails, they are the fit's own. That of
+/// `events` treats the number of pulses as Poisson distributed.
+/// @param values  one per pulse, in any positive unit; values that are not finite are left out
 Photopeak fit_photopeak(std::span<const double> values, const PhotopeakOptions& options = {});
 
 }  // namespace scintray::analysis

@@ -13,9 +13,9 @@
 
 namespace scintray::analysis {
 
-/// Differences of the times of events 0 and 1, 2 and 3, and so on: two detectors as the one simulated, back
-/// to back. No event is used twice, so that differences are independent. Times that are not finite are
-/// left out before.
+/// Differences of the times of events 0 and 1, 2 and 3, and so on: two detectors like the simulated one in
+/// coincidence. No event is used twice, so that differences are independent. Times that are not finite are
+/// removed first.
 std::vector<double> paired_differences(std::span<const double> times_ns);
 
 /// Differences a - b of every event that has both. @throws std::invalid_argument when the sizes differ
@@ -61,8 +61,8 @@ struct OrderAnalysis {
   std::size_t best_average = 0;
 };
 
-/// CTR with each choice of photons, from independent events paired as in paired_differences. Choices that
-/// fewer than 50 pairs have are left out.
+/// CTR with each choice of photons, from independent events paired as in paired_differences. Choices
+/// available for fewer than 50 pairs are left out.
 OrderAnalysis analyze_orders(std::span<const OrderTimes> choices);
 
 /// CTR by the n-th detected photon and by the mean of the first n, each for n = 1 to `most`, from independent

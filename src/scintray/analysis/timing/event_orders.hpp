@@ -12,9 +12,10 @@
 
 namespace scintray::analysis {
 
-/// Lower bound on the CTR (FWHM) of two detectors with a number of detected photons per event, when light
-/// reached the sensors at once (photon_time.hpp). Times of flight only increase the spread, so no unbiased
-/// estimate from all detected photons is below the last; those of the first n hold for such light alone.
+/// Lower bound on the CTR (FWHM) of two detectors with a number of detected photons per event, for light that
+/// reaches the sensors without time of flight (detail/photon_time.hpp). Times of flight only increase the
+/// spread, so no unbiased estimate from all detected photons is below the last; those of the first n hold for
+/// such light alone.
 struct TimingBound {
   double photons = 0.0;          ///< detected per event, mean
   std::vector<double> first_ns;  ///< by the first n photons, one for each n requested

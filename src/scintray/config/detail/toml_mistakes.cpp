@@ -149,7 +149,7 @@ ExplainedMistake explain_repeat(const std::string& text, const TextPlace& place,
                       name)};
 }
 
-/// A list that goes on into a line that begins with a key or header; nothing for another list.
+/// A list that continues into a line that begins with a key or header; nothing for another list.
 std::optional<ExplainedMistake> explain_unclosed_list(const std::string& text, const TextPlace& place) {
   if (place.bracket() != '[') return std::nullopt;
   const std::size_t open = *place.open_bracket();

@@ -1,5 +1,5 @@
 #pragma once
-/// Mistakes of writing in a file that is not valid TOML, in words for readers who know nothing of TOML.
+/// Explanation of the mistakes in a file that is not valid TOML, for readers unfamiliar with TOML.
 
 #include <cstddef>
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace scintray::config {
 
-/// What is wrong in a text, and what to write instead.
+/// A mistake in a text, and its correction.
 struct ExplainedMistake {
   std::size_t offset = 0;  ///< of the place, in bytes
   std::string what, hint;
@@ -21,7 +21,7 @@ struct ExplainedMistake {
 ExplainedMistake explain_mistake(const std::string& text, std::size_t offset,
                                  const toml11::SyntaxError& error);
 
-/// A value that is none, or is followed by something; nothing where the value itself is sound.
+/// The mistake of an invalid value, or of text after a value; nothing where the value itself is valid.
 std::optional<ExplainedMistake> explain_value(const TextPlace& place);
 
 }  // namespace scintray::config

@@ -8,7 +8,7 @@
 namespace scintray::contact {
 
 /// Rotation into axes along the largest faces of the parts (contact::natural_axes): in these axes, faces that
-/// are meant to be coplanar have equal coordinates after rounding.
+/// are intended to be coplanar have equal coordinates after rounding.
 Eigen::Matrix3d difference_axes(const std::vector<PlacedMesh>& parts);
 
 /// `part` minus `tool`. Both are rounded to 2^-30 mm in `axes` about the middle of `part`, so that nearly

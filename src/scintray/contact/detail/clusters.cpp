@@ -12,8 +12,8 @@ namespace scintray::contact {
 
 namespace {
 
-/// Cosine above which two triangles may be two sides of one contact; the distances decide, this only
-/// keeps triangles smaller than the tolerance from matching faces that stand upright on them.
+/// Cosine above which two triangles may be two sides of one contact; the distances decide; this only
+/// prevents triangles smaller than the tolerance from matching faces perpendicular to them.
 constexpr double kParallel = 0.9;
 
 /// For every triangle, its neighbours across edges.

@@ -54,18 +54,18 @@ struct Clusters {
   std::int32_t cluster(const TriangleOf& t) const { return cluster_of[patch_of[t.body][t.triangle]]; }
 };
 
-/// Splits every surface into flat patches and joins the patches of different bodies that lie on each
-/// other: nearer than the tolerance over an overlap wider than the tolerance.
-/// @throws InputError when a chain of contacts strays more than twice the tolerance from one plane.
+/// Splits every surface into flat patches and joins the patches of different bodies that are in contact:
+/// nearer than the tolerance over an overlap wider than the tolerance.
+/// @throws InputError when a chain of contacts deviates by more than twice the tolerance from one plane.
 Clusters find_clusters(const std::vector<Body>& bodies, const std::vector<PlacedPart>& parts,
                        const std::vector<BodyPair>& pairs, double tolerance_mm);
 
 /// Moves the vertices of touching faces onto their common planes, and corners and edges of different
 /// bodies that lie within the tolerance onto each other, so that contacts close and no slivers arise.
-/// Vertices that agree to `rounding_mm` stay where they are.
+/// Vertices that agree to `rounding_mm` are unchanged.
 void snap(std::vector<Body>& bodies, const Clusters& clusters, double tolerance_mm, double rounding_mm);
 
-/// Area (mm2) and perimeter (mm) of the overlap of two triangles seen along a plane's normal.
+/// Area (mm2) and perimeter (mm) of the overlap of two triangles projected along a plane's normal.
 struct Overlap {
   double area = 0.0;
   double perimeter = 0.0;

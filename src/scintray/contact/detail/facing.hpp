@@ -20,8 +20,8 @@ enum class Facing {
 std::vector<core::Vec3> samples_of(const core::Vec3& a, const core::Vec3& b, const core::Vec3& c);
 std::vector<core::Vec3> samples_of(const Body& body, std::uint32_t triangle);
 
-/// The triangle of `body` nearest to a point, of those within `reach` whose normal has at least (at most,
-/// when `opposed`) half a right angle's cosine with `normal`.
+/// The triangle of `body` nearest to a point, among those within `reach` whose normal is within 45 deg of
+/// `normal`, or, when `opposed`, of its opposite.
 struct Nearest {
   std::uint32_t triangle = ~0U;
   double distance = HUGE_VAL;
@@ -35,8 +35,8 @@ Nearest nearest(const Body& body, const core::Vec3& point, const core::Vec3& nor
 std::vector<Facing> facing(const Body& body, const Body& other, double tolerance, double flat_mm);
 
 /// Moves vertices of `mesh`, whose geometry `body` is, so that the planes of marked triangles move outwards
-/// by `by` and those of their neighbours stay (least squares, weighted by area so that slivers, whose normals
-/// are rounding, do not count; nearly parallel planes count as one).
+/// by `by` and those of their neighbours do not move (least squares, weighted by area so that slivers, whose
+/// normals are rounding, do not count; nearly parallel planes count as one).
 mesh::TriMesh pushed(mesh::TriMesh mesh, const Body& body, const std::vector<char>& marked, double by);
 
 }  // namespace scintray::contact

@@ -12,8 +12,8 @@ namespace scintray::contact {
 
 namespace {
 
-/// The Fibonacci lattice (González 2010, Math. Geosci. 42, 49, eq. 1): directions spread evenly and in
-/// general position, so a ray along one rarely hits an edge, and then another one is tried.
+/// The Fibonacci lattice (González 2010, Math. Geosci. 42, 49, eq. 1): directions nearly uniform on the
+/// sphere and in general position, so a ray along one rarely hits an edge, and then another one is tried.
 core::Vec3 lattice_direction(int i) {
   constexpr int kCount = 101;
   constexpr double kGoldenAngle = core::kTwoPi * (1.0 - 1.0 / std::numbers::phi);

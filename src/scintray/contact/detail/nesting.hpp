@@ -25,7 +25,7 @@ struct Nesting {
   }
 };
 
-/// Relation of every near pair of bodies: apart (touching or not), nested or overlapping. A body that
+/// Relation of every near pair of bodies: disjoint (touching or not), nested or overlapping. A body that
 /// reaches less than `tolerance_mm` into the other one counts as touching it.
 [[nodiscard]] Nesting find_nesting(const std::vector<Body>& bodies, const std::vector<BodyPair>& pairs,
                                    double tolerance_mm);

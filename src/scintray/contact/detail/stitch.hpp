@@ -16,13 +16,13 @@ namespace scintray::contact {
 /// tolerance, and stitches these to its remaining faces.
 ///
 /// Both meshes are first cut where the other's contact ends: along the other part, its facing triangles
-/// pushed out by twice the tolerance, so that the planes in which it ends run on through this one's surface
-/// (CGAL's corefinement). What then lies in that space and faces the other is the contact, and each part has
-/// an outline around it. The conforming side's contact triangles go; the corners of its outline move onto the
-/// reference side's, and where the reference side's outline has corners, its edges are cut; the reference
-/// side's triangles, cut at the conforming side's corners, close it. So the reference side keeps its shape,
-/// the contact is the same triangles on both sides, and the conforming side's faces beside it lean over to
-/// the common outline instead of ending at a step. Nothing moves by more than twice the tolerance.
+/// pushed out by twice the tolerance, so that the planes in which it ends continue through this one's surface
+/// (CGAL's corefinement). The faces in that space that face the other part are the contact, and each part has
+/// an outline around it. The conforming side's contact triangles are removed; the corners of its outline move
+/// onto the reference side's, and where the reference side's outline has corners, its edges are cut; the
+/// reference side's triangles, cut at the conforming side's corners, close it. So the reference side keeps
+/// its shape, the contact is the same triangles on both sides, and the conforming side's faces beside it are
+/// tilted to the common outline instead of ending at a step. Nothing moves by more than twice the tolerance.
 ///
 /// @return empty on success, when both parts are changed, with a note each; otherwise the reason of the
 /// failure
@@ -34,10 +34,10 @@ inline constexpr double kContactPush = 2.0;
 
 using Loop = std::vector<std::uint32_t>;  ///< vertices, the first one after the last
 
-/// A part cut along the outline of its contact with another.
+/// A part cut along the outline of its contact with another part.
 struct CutPart {
   mesh::TriMesh mesh;
-  std::vector<std::uint32_t> origin;  ///< per triangle, the part's own triangle that it is a piece of
+  std::vector<std::uint32_t> origin;  ///< per triangle, the part's own triangle of which it is a piece
   std::vector<char> contact;          ///< per triangle
   std::vector<Loop> outlines;         ///< of the contact, which lies to their left seen from outside
 };

@@ -91,7 +91,7 @@ class OutlineStitcher {
       double& next = places_[(i + 1) % places_.size()];
       double step = next - places_[i];
       if (step < 0.0) step += outline_.length();
-      if (outline_.length() - step <= same_) {  // a hair backwards
+      if (outline_.length() - step <= same_) {  // slightly backwards
         next = places_[i];
         step = 0.0;
       }

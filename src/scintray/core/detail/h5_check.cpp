@@ -227,7 +227,7 @@ class Examination {
     }
     std::vector<char*> texts(count, nullptr);
     const herr_t status = read(type.id(), texts.data());
-    std::size_t length = 0;  // every character is looked at
+    std::size_t length = 0;  // every character is read
     for (const char* text : texts) length += text == nullptr ? 0 : std::strlen(text);
     H5Dvlen_reclaim(type.id(), space.id(), H5P_DEFAULT, texts.data());
     return length > kMostBytes ? -1 : status;

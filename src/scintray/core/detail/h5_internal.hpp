@@ -131,7 +131,7 @@ class TextHeaps {
   bool have(std::uint64_t from, std::uint64_t count) const;
   /// The same of the `count` texts of an attribute of the object whose header has an address. True also where
   /// the header does not hold the attribute itself: those of netCDF-4 with more than eight attributes, in a
-  /// heap of their own, are not looked at.
+  /// heap of their own, are not checked.
   bool have_attribute(std::uint64_t header, const std::string& attribute, std::uint64_t count) const;
 
  private:

@@ -110,7 +110,7 @@ class SceneExporter {
     return sum / static_cast<double>(mesh.vertices.size());
   }
 
-  /// True when every face is seen from its outside from the mean of the corners: a smaller copy about that
+  /// True when the mean of the corners is on the inner side of every face's plane: a smaller copy about that
   /// point lies inside.
   static bool star_shaped(const mesh::TriMesh& mesh) {
     const core::Vec3 centre = middle(mesh);
@@ -204,7 +204,8 @@ class SceneExporter {
     double area_mm2 = 0.0;
   };
 
-  /// Sensor of the part on a side that converts what its surfaces absorb, or that lets light in unreflected.
+  /// Sensor of the part on a side that converts what its surfaces absorb, or that admits light without
+  /// reflection.
   const detector::Sensor* absorbing_sensor(Body one, Body other) const {
     for (const Body body : {one, other})
       if (const detector::Sensor* sensor = body ? sensor_of(*body) : nullptr;

@@ -1,5 +1,5 @@
 #pragma once
-/// A quick test that shows most pairs of triangles to be apart.
+/// A fast test that separates most pairs of disjoint triangles.
 
 #include <array>
 #include <cstddef>
@@ -21,7 +21,7 @@ class TrianglePlanes {
   }
 
   /// True when two triangles that share no corner, or one, have nothing else in common, by a plane with one
-  /// of them on its one side and the other strictly beyond. It takes a hundredth of the time of the exact
+  /// of them on one side and the other strictly beyond. It takes a hundredth of the time of the exact
   /// test, and decides nearly every pair of a fan or of other slivers, whose boxes all overlap.
   bool clearly_apart(std::uint32_t a, std::uint32_t b) const {
     const Corners &of_a = mesh_.triangles[a], &of_b = mesh_.triangles[b];
@@ -39,7 +39,7 @@ class TrianglePlanes {
   using Corners = std::array<std::uint32_t, 3>;
   static constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
 
-  /// A plane on one side of which a triangle lies, with the error of its rounding.
+  /// A plane on one side of which a triangle lies, with its rounding error.
   struct Bound {
     core::Vec3 outwards;
     /// Square of the error of a distance along `outwards` for each square of the distance from the plane's

@@ -19,11 +19,11 @@ std::string lower_extension(const std::filesystem::path& path);
 [[nodiscard]] std::string read_mesh_file(const std::filesystem::path& path);
 
 /// Path of the file that a mesh file names: relative, in its folder or below, links resolved. Throws
-/// InputError when it is elsewhere, does not exist, or is no regular file: a file of a stranger may name a
+/// InputError when it is elsewhere, does not exist, or is no regular file: an untrusted file may name a
 /// pipe, a device or the user's own files.
 [[nodiscard]] std::filesystem::path file_beside(const std::filesystem::path& path, const std::string& name);
 
-/// Throws InputError for files whose own counts cannot be true, since parsers allocate by them before they
+/// Throws InputError for files whose stated counts are impossible, since parsers allocate by them before they
 /// read: element counts of OFF and binary STL against the file's size; and for text in UTF-16.
 void check_stated_sizes(const std::filesystem::path& path, const std::string& extension,
                         const std::string& content);

@@ -1,5 +1,5 @@
 #pragma once
-/// Reading meshes from files, once or body by body.
+/// Import of meshes from files, as a whole or body by body.
 
 #include <cstddef>
 #include <filesystem>
@@ -28,7 +28,7 @@ struct ImportOptions {
 
 struct MeshImport {
   TriMesh mesh;                          ///< mm, vertices welded, no triangle of zero area
-  std::string unit_from_file;            ///< "m" for glTF; "" when the file does not state
+  std::string unit_from_file;            ///< "m" for glTF; "" when the file states none
   std::vector<std::string> notes;        ///< everything that was left out, repaired or warned about
   std::size_t degenerate_triangles = 0;  ///< triangles of the file without area, left out
   std::vector<std::string> bodies;       ///< all bodies of the file; empty when its format has none
@@ -61,7 +61,7 @@ struct MeshImport {
 ///                     body; a tessellation finer than a millionth of the body.
 MeshImport import_mesh(const std::filesystem::path& path, const ImportOptions& options);
 
-/// The same with nothing but a unit: see ImportOptions::mm_per_unit.
+/// The same with only a unit: see ImportOptions::mm_per_unit.
 MeshImport import_mesh(const std::filesystem::path& path, double mm_per_unit);
 
 /// Extensions (with the dot, lower case) of the built-in formats.
@@ -85,7 +85,7 @@ class MeshFiles {
   MeshFiles(const MeshFiles&) = delete;
   MeshFiles& operator=(const MeshFiles&) = delete;
 
-  /// One more import of this file is to come. Its content is kept until as many have been made.
+  /// Announces one more import of this file. Its content is kept until all announced imports are made.
   void announce(const std::filesystem::path& path);
 
   /// As import_mesh(path, options).

@@ -254,8 +254,8 @@ class Repairer {
       const MeshDiagnosis edges = edge_defects(better.mesh);
       if (edges.closed() && edges.flipped_edges.count == 0 && better.mesh.volume() > 0.0) return better;
     }
-    // Crossings beyond this are no local defect, and CGAL takes minutes to find that it cannot mend them; its
-    // time grows faster than the square of a vertex's number of edges.
+    // Crossings beyond this are no local defect, and CGAL takes minutes to find that it cannot repair them;
+    // its time grows faster than the square of a vertex's number of edges.
     constexpr std::size_t kMostCrossings = 2000, kMostEdges = 500;
     std::vector<std::size_t> edges(body.vertices.size());
     for (const auto& triangle : body.triangles)

@@ -22,14 +22,14 @@ struct RepairStep {
 };
 
 struct RepairedMesh {
-  TriMesh mesh;  ///< groups kept per triangle; what fills a hole takes its neighbours'
+  TriMesh mesh;  ///< groups kept per triangle; the filling of a hole takes those of its neighbours
   std::vector<RepairStep> steps;
-  std::vector<std::string> refused;  ///< attempts that failed, with the reason, in words
+  std::vector<std::string> refused;  ///< attempts that failed, with the reason
   MeshDiagnosis before, after;
 };
 
 /// A mesh repaired as follows: welds vertices; removes triangles without area, duplicates, fins, and inner
-/// walls; makes neighbours agree and normals point outwards; fills holes; unites bodies that cross; and
+/// walls; orients neighbours consistently and normals outwards; fills holes; unites bodies that cross; and
 /// replaces local self-intersections. Bodies that do not cross remain separate. What could not be repaired is
 /// in `after`; a sound mesh is returned unchanged.
 /// @throws InputError when a triangle names a vertex that does not exist or a vertex is not finite.

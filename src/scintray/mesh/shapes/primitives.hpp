@@ -18,7 +18,8 @@ enum class CylinderRadius {
 };
 
 /// Height of the flattest triangle of an end of many corners, over the size of the body, below which the end
-/// has a vertex in its middle: forty times what counts as flat in a mesh (2^-22 of its largest coordinate).
+/// has a vertex at its centre: forty times the limit of degenerate triangles (2^-22 of the largest
+/// coordinate).
 inline constexpr double kFlatCap = 1e-5;
 
 /// Regular prism that represents a cylinder about the z axis, z from 0 to height, first corner on +x.

@@ -28,8 +28,8 @@ struct Profile {
   }
 };
 
-/// The cylinder or cone of a straight wall about the z axis; nothing for a wall across the axis.
-/// @param near  length (mm) within which the wall is along or across the axis
+/// The cylinder or cone of a straight wall about the z axis; nothing for a wall perpendicular to the axis.
+/// @param near  length (mm) within which the wall is parallel or perpendicular to the axis
 std::optional<SupportSurface> straight_wall(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
                                             double near);
 
@@ -41,12 +41,12 @@ struct SmoothPoint {
 };
 
 /// Adds the wall between two points of a smooth profile, without its last corner: two quadrics of revolution
-/// that meet halfway with one tangent, and have the radii and tangents of the points. Over a step of h their
-/// radius is off by the order of h^3, their angle by that of h^2.
+/// that join halfway with a common tangent, and have the radii and tangents of the points. Over a step of h
+/// their radius is off by the order of h^3, their angle by that of h^2.
 void add_smooth(Profile& profile, const SmoothPoint& from, const SmoothPoint& to, const std::string& group);
 
 /// The body, with the groups of the sides in order of first appearance; flat sides of a full circle as given.
-/// @throws InputError as revolved(), and for a profile that crosses itself or holds no volume.
+/// @throws InputError as revolved(), and for a profile that crosses itself or encloses no volume.
 TriMesh revolve(const Profile& profile, int segments);
 
 }  // namespace scintray::mesh

@@ -19,7 +19,7 @@ namespace scintray::mesh {
 TriMesh make_prism(int sides, double circumradius, double height, double chamfer = 0.0);
 
 /// Box whose 12 edges are bevelled by planes: 6 rectangles with the groups of make_box, and 12 bevels and 8
-/// corner triangles in the group "chamfer". `chamfer` is the width taken off each face along an edge.
+/// corner triangles in the group "chamfer". `chamfer` is the width removed from each face along an edge.
 /// @throws InputError as make_box, and when the chamfer is not positive or leaves nothing of a face.
 TriMesh make_chamfered_box(const core::Vec3& low, const core::Vec3& high, double chamfer);
 
@@ -63,8 +63,8 @@ TriMesh make_lens(const LensShape& shape);
 
 /// The body between the z axis and a profile: straight lines from corner to corner of (r, z). A corner with
 /// r = 0 is on the axis; the profile begins and ends there, or is closed. Walls are cylinders and cones, and
-/// have them as support surfaces; walls across the axis are flat. Groups "side0", "side1"... by the side from
-/// the corner of this number to the next.
+/// have them as support surfaces; walls perpendicular to the axis are flat. Groups "side0", "side1"... by the
+/// side from the corner of this number to the next.
 /// @param smooth  first and last corners of ranges in which a smooth curve leads through the corners: two
 ///                quadrics of revolution with a common tangent between each corner and the next; the group
 ///                is that of the first
@@ -98,7 +98,8 @@ TriMesh make_torus(const TorusShape& shape);
 
 /// Ellipsoid of revolution about the z axis, centred at the origin: a geodesic sphere, stretched. One group,
 /// "spheroid", with the spheroid as support surface.
-/// @param radius  across the axis; @param half_height  along it
+/// @param radius       perpendicular to the axis
+/// @param half_height  along it
 /// @throws InputError for lengths that are not positive, or subdivisions < 1.
 TriMesh make_spheroid(double radius, double half_height, int subdivisions);
 
@@ -146,8 +147,8 @@ double winston_length(double exit_radius, double acceptance_rad);
 /// @param z  from 0 to the full length
 double winston_radius(double exit_radius, double acceptance_rad, double z);
 
-/// The body inside the concentrator, corners of every ring on the true profile. Rings follow even steps of
-/// the profile's parameter, and of a cone there is another halfway between each two. Its support surfaces are
+/// The body inside the concentrator, corners of every ring on the true profile. Rings follow equal steps of
+/// the profile's parameter; a cone has a further ring halfway between each two. Its support surfaces are
 /// quadrics of revolution between the rings, with common tangents, which have the true radii and tangents at
 /// those on the profile. Groups "side", "-z" (exit), "+z" (entrance); a trough's are those of make_box.
 /// @throws InputError for lengths that are not positive, an angle outside 0 to 90 deg, a length beyond the

@@ -51,16 +51,16 @@ inline py::tuple estimate(const core::Estimate& of) { return py::make_tuple(of.v
 /// An array (n, 2) of values and errors.
 py::array estimates(const std::vector<core::Estimate>& values);
 
-/// The dictionary of an optional thing, or None.
+/// The dictionary of an optional value, or None.
 template <typename T, typename Convert>
 py::object optional(const std::optional<T>& thing, Convert convert) {
   return thing ? py::object(convert(*thing)) : py::none();
 }
 
-/// Work that is done on another thread while the calling one, which Python knows, runs its signal handlers
-/// and `progress`. An error of either stops the work.
+/// Work on another thread, during which the calling one, a thread of Python, runs the signal handlers and
+/// `progress`. An exception of either stops the work.
 struct WatchedWork {
-  /// Called with the numbers of done and of all, and the name of the thing; returns false to stop.
+  /// Called with the numbers of finished and of all units, and their name; returns False to stop.
   py::object progress;
   std::atomic<bool> stop{false};
 

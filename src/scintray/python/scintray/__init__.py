@@ -1,4 +1,4 @@
-"""ScintRay: scintillation light through detectors whose parts are arbitrary triangle meshes.
+"""ScintRay: transport of scintillation light in detectors whose parts are arbitrary triangle meshes.
 
 >>> import scintray
 >>> scene = scintray.Scene.load("first.toml")
@@ -13,7 +13,7 @@ in its unit. Errors are of the classes of ``scintray.errors``.
 
 import os as _os
 
-# A package of pip has the data in itself; the library finds other installations by itself.
+# A package installed by pip contains the data; the library locates those of other installations.
 _data = _os.path.join(_os.path.dirname(_os.path.abspath(__file__)), "data")
 if _os.path.isdir(_data):
     _os.environ.setdefault("SCINTRAY_DATA", _data)
@@ -43,5 +43,5 @@ __all__ = ["Analysis", "Cancelled", "ClosedError", "Deposits", "Error", "Estimat
 
 
 def data_folder() -> str:
-    """The folder of the data that come with ScintRay: materials, scenes, geometry."""
+    """Path of the folder of the data shipped with ScintRay: materials, scenes, geometry."""
     return _data_folder()

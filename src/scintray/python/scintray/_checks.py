@@ -1,5 +1,5 @@
-"""Arguments of the package's functions: each test returns the value as the library takes it, or raises InputError with
-the name of the argument, what was found, and what to write."""
+"""Checks of arguments: each function returns the value in the form that the library expects, or raises
+InputError with the name of the argument, what was found, and a hint."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _MOST_WHOLE = 2**64 - 1
 
 
 def names_hint(kind: str, wanted: Any, names: Sequence[str]) -> InputError:
-    """The error of a name that does not exist, with those that do."""
+    """The error of an unknown name, with a hint of the nearest and of the existing ones."""
     near = difflib.get_close_matches(str(wanted), list(names), 1)
     shown: List[str] = list(names)[:8]
     hint = (f'did you mean "{near[0]}"? ' if near else "") + "there are: " + ", ".join(shown) \
@@ -50,13 +50,13 @@ def numbers(values: Any, name: str, shape: Sequence[int], unit: str = "") -> np.
 
 
 def _plain(value: Any) -> Any:
-    """A number of NumPy or xarray, or an array of one without dimensions, as Python has it."""
+    """The value as a Python number if it is a NumPy or xarray scalar, or an array without dimensions."""
     array = value if isinstance(value, np.generic) else np.asarray(value) if hasattr(value, "__array__") else None
     return array.item() if array is not None and np.ndim(array) == 0 else value
 
 
 def _shown(value: Any) -> str:
-    """The value in a message, which is no book."""
+    """The value as text for a message, 200 characters at most."""
     try:
         text = repr(value)
     except ValueError:  # a whole number of thousands of digits
@@ -66,7 +66,7 @@ def _shown(value: Any) -> str:
 
 def number(value: Any, name: str, unit: str = "", *, least: float = -math.inf, above: float = -math.inf,
            below: float = math.inf) -> float:
-    """A finite number from ``least`` on, above ``above`` and below ``below``."""
+    """A finite number not below ``least``, above ``above`` and below ``below``; else raises InputError."""
     wanted = "a finite number" + (f" in {unit}" if unit else "")
     for bound, word in ((least, "from"), (above, "above"), (below, "below")):
         if math.isfinite(bound):
@@ -84,7 +84,7 @@ def number(value: Any, name: str, unit: str = "", *, least: float = -math.inf, a
 
 
 def whole(value: Any, name: str, *, least: int = 0, most: int = _MOST_WHOLE) -> int:
-    """A whole number, which may be written as 1e6."""
+    """A whole number from ``least`` to ``most``, which may be written as 1e6; else raises InputError."""
     value = _plain(value)
     if isinstance(value, float) and value.is_integer() and abs(value) <= 2**53:
         value = int(value)
@@ -110,7 +110,7 @@ def thread_count(value: Any) -> Optional[int]:
 
 
 def index_of(value: Any, name: str, count: int) -> int:
-    """An index of ``count`` things, as Python counts: below 0 from the end."""
+    """An index in [0, ``count``); negative ones count from the end. Raises InputError for others."""
     value = _plain(value)
     if isinstance(value, bool) or not isinstance(value, int) or not -count <= value < count:
         raise InputError(f"{name} is {_shown(value)}; expected a whole number from 0 to {count - 1}",
@@ -147,7 +147,8 @@ def one_of(value: Any, name: str, choices: Sequence[str]) -> str:
 
 
 def path_text(value: Any, name: str = "the path") -> str:
-    """The path of a file as text."""
+    """The path of a file as text; raises InputError for other types and for characters that no path can
+    have."""
     if not isinstance(value, (str, os.PathLike)) or not isinstance(os.fspath(value), str):
         raise InputError(f"{name} is {_shown(value)}; expected the path of a file", 'write it as text, "folder/file"')
     if "\0" in os.fspath(value):
@@ -160,7 +161,7 @@ def path_of(value: Any, name: str = "the path") -> Path:
 
 
 def listed(values: Any, name: str, of: str) -> List[Any]:
-    """The elements of a list, tuple or array."""
+    """The elements of a list, tuple or array; raises InputError for others."""
     try:
         if not isinstance(values, (str, bytes, dict)):
             return list(values)

@@ -54,10 +54,11 @@ def _is_tables(value: Any) -> bool:
 
 def dump(data: Dict[str, Any], special: Callable[[Any, str], Any] = lambda value, path: value,
          first: Sequence[Tuple[str, Any]] = ()) -> str:
-    """TOML text of a scene: a line per key, so that messages find their place.
+    """TOML text of a scene, with one line per key, so that messages have a line.
 
     ``special`` replaces values that TOML does not have, by their path. ``first`` are entries of lists, as (key,
-    entry), that come before all other tables, in their order, whatever their lists.
+    entry), that come before all other tables, in their order, whatever their lists. Raises InputError for
+    values that a scene cannot hold.
     """
     lines: List[str] = []
 
@@ -88,7 +89,8 @@ def dump(data: Dict[str, Any], special: Callable[[Any, str], Any] = lambda value
 
 
 def steps_of(path: Path) -> List[Union[str, int]]:
-    """The steps of a path: "part.crystal.surface", or a sequence where names contain dots."""
+    """The steps of a path: "part.crystal.surface", or a sequence where names contain dots. Raises InputError
+    for others."""
     steps: List[Union[str, int]] = []
     if isinstance(path, str):
         steps += path.split(".")
@@ -100,7 +102,7 @@ def steps_of(path: Path) -> List[Union[str, int]]:
 
 
 def _child(node: Any, step: Union[str, int], walked: str) -> Tuple[Any, Union[str, int]]:
-    """The container and the key in it that a step leads to."""
+    """The container and the key in it to which a step leads. Raises InputError when there is none."""
     if isinstance(node, dict):
         return node, str(step)
     if isinstance(node, list):
@@ -134,7 +136,8 @@ def get(data: Dict[str, Any], path: Path) -> Any:
 
 
 def put(data: Dict[str, Any], path: Path, value: Any) -> None:
-    """Sets the key at a path; tables on the way to it that are missing are made."""
+    """Sets the key at a path; missing tables along it are created. Raises InputError where it leads through a
+    value."""
     steps = steps_of(path)
     node: Any = data
     walked = "the scene"

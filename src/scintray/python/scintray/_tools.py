@@ -1,4 +1,4 @@
-"""What the modules of the package share: estimates, optional packages, tables for notebooks."""
+"""Tools shared by the modules of the package: estimates, optional packages, tables for notebooks."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Estimate(NamedTuple):
         return float(self.value)
 
     def sigmas_from(self, other: "Estimate") -> float:
-        """Distance to another estimate in units of the combined standard error."""
+        """Distance to another estimate in units of the combined standard error; inf where both errors are 0."""
         error = math.hypot(self.error, other.error)
         return abs(self.value - other.value) / error if error > 0.0 else math.inf
 
@@ -38,7 +38,7 @@ def estimate(pair: Any) -> Estimate:
 
 
 def need(package: str, what: str) -> Any:
-    """An optional package. Raises MissingPackage with the name of Debian's package."""
+    """Imports an optional package. Raises MissingPackage with the name of Debian's package."""
     try:
         return importlib.import_module(package)
     except ImportError as error:
@@ -56,7 +56,7 @@ def axes_for(ax: Optional[Any], **subplots: Any) -> Any:
 
 
 class Shown:
-    """Base of what notebooks show as a table of names and values, those of ``_rows()``."""
+    """Base of classes that notebooks show as a table of names and values, those of ``_rows()``."""
 
     def _rows(self) -> Iterable[Sequence[Any]]:
         raise NotImplementedError

@@ -22,7 +22,7 @@ class Histogram(Shown):
         self.above: float = entry["above"]
 
     def plot(self, ax: Optional[Any] = None, label: str = "") -> Any:
-        """Draws the counts as steps."""
+        """Draws the counts as steps. Returns the axes."""
         ax = axes_for(ax)
         ax.stairs(self.counts, self.edges)
         ax.set_xlabel(label)
@@ -62,7 +62,7 @@ class Peak(Shown):
             ax.stairs(self.expected, self.histogram.edges, color="C1", linewidth=1.5, baseline=None)
 
     def plot(self, ax: Optional[Any] = None, label: str = "") -> Any:
-        """Draws the bins that were fitted, and the fit."""
+        """Draws the fitted bins, and the fit. Returns the axes."""
         ax = self.histogram.plot(ax, label)
         self._draw(ax)
         return ax
@@ -81,8 +81,8 @@ class Peak(Shown):
 
 
 class Timing(Peak):
-    """Differences of times, ns: ``fwhm_ns``, the number to quote, with its error; ``gaussian_fwhm`` by a fit,
-    ``quantile_fwhm`` between quantiles; ``mean``; ``count`` of differences."""
+    """Differences of times, ns: ``fwhm_ns``, the width to quote, ``gaussian_fwhm`` of a fitted Gaussian,
+    ``quantile_fwhm`` between quantiles, and ``mean``, each with its error; ``count`` of differences."""
 
     def __init__(self, entry: Dict[str, Any], quoted: Optional[Any] = None) -> None:
         super().__init__(entry)
@@ -93,7 +93,7 @@ class Timing(Peak):
         self.fwhm_ns: Estimate = estimate(quoted) if quoted is not None else self.quantile_fwhm
 
     def plot(self, ax: Optional[Any] = None, label: str = "difference of times (ns)") -> Any:
-        """Draws the differences, and the fit."""
+        """Draws the differences, and the fit. Returns the axes."""
         ax = super().plot(ax, label)
         ax.set_title(f"{1e3 * self.fwhm_ns.value:.0f} ± {1e3 * self.fwhm_ns.error:.0f} ps FWHM")
         return ax
@@ -107,8 +107,9 @@ class Timing(Peak):
 
 
 class DepthCurve(Shown):
-    """Light against depth: ``depth_mm``, ``count``, ``value`` (n, 2: with errors), ``relative`` (n, 2),
-    ``from_peak`` (photopeak positions, else means), ``slope_per_mm`` (relative change per mm)."""
+    """Light against depth: ``depth_mm`` (n,), ``count`` (n,) of events, ``value`` (n, 2: with errors),
+    ``relative`` (n, 2) to the reference point, ``from_peak`` (photopeak positions, else means),
+    ``slope_per_mm`` (relative change per mm)."""
 
     def __init__(self, entry: Dict[str, Any], unit: str) -> None:
         self.depth_mm: np.ndarray = entry["depth_mm"]
@@ -121,13 +122,13 @@ class DepthCurve(Shown):
         self._unit = unit
 
     def to_dataframe(self) -> Any:
-        """A DataFrame with units in ``attrs["units"]``."""
+        """A DataFrame with units in ``attrs["units"]``. Raises MissingPackage without pandas."""
         return dataframe({"depth_mm": self.depth_mm, "events": self.count, "light": self.value[:, 0],
                           "light_error": self.value[:, 1]},
                          {"depth_mm": "mm", "light": self._unit, "light_error": self._unit, "events": "1"})
 
     def plot(self, ax: Optional[Any] = None) -> Any:
-        """Draws the light against depth with the straight line fitted to it."""
+        """Draws the light against depth with the fitted straight line. Returns the axes."""
         ax = axes_for(ax)
         ax.errorbar(self.depth_mm, self.value[:, 0], self.value[:, 1], fmt="o", markersize=4, capsize=2)
         x = np.array([self.depth_mm.min(), self.depth_mm.max()])
@@ -146,7 +147,8 @@ class DepthCurve(Shown):
 
 class DepthOfInteraction(Shown):
     """Depth of interaction from the light at two ends: ``residual`` (estimated minus true, mm), and against
-    ``depth_mm`` the ``bias_mm`` and ``fwhm_mm`` (n, 2: with errors)."""
+    ``depth_mm`` (n,) the ``bias_mm`` and ``fwhm_mm`` (n, 2: with errors); ``calibration``: ratios and depths
+    (mm)."""
 
     def __init__(self, entry: Dict[str, Any]) -> None:
         self.residual = Timing(entry["residual"])
@@ -161,7 +163,7 @@ class DepthOfInteraction(Shown):
         return self.residual.quantile_fwhm
 
     def plot(self, ax: Optional[Any] = None) -> Any:
-        """Draws resolution and bias against depth."""
+        """Draws resolution and bias against depth. Returns the axes."""
         ax = axes_for(ax)
         ax.errorbar(self.depth_mm, self.fwhm_mm[:, 0], self.fwhm_mm[:, 1], fmt="o-", label="FWHM", capsize=2)
         ax.errorbar(self.depth_mm, self.bias_mm[:, 0], self.bias_mm[:, 1], fmt="s-", label="bias", capsize=2)
@@ -196,8 +198,8 @@ class FloodMap(Shown):
         self.worst_peak_to_valley: float = entry["worst_peak_to_valley"]
 
     def plot(self, ax: Optional[Any] = None, *, peaks: bool = True) -> Any:
-        """Draws the map on a square-root scale up to the highest hundredth of the cells with events, so that valleys and
-        faint peaks show, with a ring about each peak."""
+        """Draws the map on a square-root colour scale up to the 99 % quantile of the cells with events, so that
+        valleys and faint peaks are visible, with a ring about each peak. Returns the axes."""
         ax = axes_for(ax)
         from matplotlib.colors import PowerNorm
         filled = self.counts[self.counts > 0]
@@ -223,14 +225,14 @@ class FloodMap(Shown):
 
 
 class Analysis:
-    """All analyses of the events of a point; each is None where the events do not allow it, and ``left_out`` has
-    the reasons.
+    """All analyses of the events of a point; an analysis that the events do not permit is None, and
+    ``left_out`` has the reason.
 
-    ``events``, ``pulses`` (events with light), ``selected`` (in flood map, depth and timing; ``selection`` describes
-    them), ``light_unit`` ("photons" or "photoelectrons"), ``spectrum``, ``photopeak``, ``mean_light``,
-    ``light_per_keV``, ``light_against_depth``, ``doi``, ``flood``, ``ctr`` (coincidence timing resolution of two such
-    detectors), ``ctr_first_photon``, ``end_difference``, and the arrays of ``timing_against_depth`` and
-    ``ctr_by_order`` in dictionaries.
+    ``events``, ``pulses`` (events with light), ``selected`` (in flood map, depth and timing; ``selection``
+    describes them), ``light_unit`` ("photons" or "photoelectrons"), ``spectrum``, ``photopeak``,
+    ``mean_light``, ``light_per_keV``, ``light_against_depth``, ``doi``, ``flood``, ``ctr`` (coincidence timing
+    resolution of two such detectors), ``ctr_first_photon``, ``end_difference``, and the arrays of
+    ``timing_against_depth`` and ``ctr_by_order`` in dictionaries.
     """
 
     events: int
@@ -262,7 +264,8 @@ class Analysis:
         self.end_difference: Optional[Timing] = made(Timing, "end_difference")
 
     def plot_spectrum(self, ax: Optional[Any] = None) -> Any:
-        """Draws the spectrum of the light with the fit of its photopeak."""
+        """Draws the spectrum of the light with the fit of its photopeak. Returns the axes; raises InputError
+        without one."""
         if self.spectrum is None:
             raise InputError("there is no spectrum: the events have no two different numbers of photons",
                              "run more events")
@@ -277,8 +280,8 @@ class Analysis:
         return ax
 
     def _cut(self, ax: Any, peak: float) -> None:
-        """Where a bin is far above the photopeak (gammas that left nothing but dark counts), ends the axis above the
-        peak, and states the number."""
+        """Where a bin is far above the photopeak (events with dark counts only), ends the axis above the peak,
+        and prints the number of that bin."""
         assert self.spectrum is not None
         highest = int(np.argmax(self.spectrum.counts))
         if self.spectrum.counts[highest] > 2.0 * peak:
@@ -287,7 +290,8 @@ class Analysis:
                         xytext=(4, 0), textcoords="offset points", fontsize="small", va="center")
 
     def plot_timing_against_depth(self, ax: Optional[Any] = None) -> Any:
-        """Draws the coincidence timing resolution and the mean time of events against their depth."""
+        """Draws the coincidence timing resolution and the mean time of events against their depth. Returns the
+        axes; raises InputError without these."""
         if self.timing_against_depth is None:
             raise InputError("there is no timing against depth: " + ("; ".join(self.left_out) or "no slices"),
                              "give [analysis] a depth with slices, and run more events")
@@ -300,8 +304,8 @@ class Analysis:
         return ax
 
     def plot_ctr_by_order(self, ax: Optional[Any] = None) -> Any:
-        """Draws the coincidence timing resolution against the number of the photon that sets the time, and that of the
-        mean of the first photons up to that number."""
+        """Draws the coincidence timing resolution by the n-th photon, and by the mean of the first n, against
+        n. Returns the axes; raises InputError without times of n-th photons."""
         if self.ctr_by_order is None:
             raise InputError("there are no times of n-th photons", 'set scene["readout.photon_order"] = [1, 2, 3, 5, 10]')
         ax = axes_for(ax)
@@ -314,8 +318,9 @@ class Analysis:
         return ax
 
     def plot(self) -> Any:
-        """A figure with every analysis there is: spectrum, light against depth, depth of interaction, flood map,
-        timing, that against depth, and by the n-th photon. Returns the figure of matplotlib."""
+        """A figure with all available analyses: spectrum, light against depth, depth of interaction, flood map,
+        timing, also against depth, and by the n-th photon. Returns the figure of matplotlib; raises InputError
+        when there is none."""
         from ._tools import need
         draw = [(name, plot) for name, plot in (
             ("spectrum", self.plot_spectrum if self.spectrum is not None else None),

@@ -1,4 +1,4 @@
-"""Exceptions. Each has the place of the mistake, what was found and expected, and a hint."""
+"""Exceptions. Those of the input have the place of the mistake, what was found and expected, and a hint."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ __all__ = ["Cancelled", "ClosedError", "Error", "InputError", "InternalError", "
 
 @dataclass
 class Problem:
-    """One mistake of the input: its place, what is wrong, and how to mend it."""
+    """One mistake of the input: its place, what is wrong, and how to correct it."""
 
     what: str
     """What was found and what was expected."""
@@ -41,7 +41,7 @@ class Error(Exception):
 
 
 class InputError(Error, ValueError):
-    """An error of the input, with every problem that was found, not only the first."""
+    """An error of the input, with all problems, not only the first."""
 
     def __init__(self, problems: Any, hint: str = "") -> None:
         if isinstance(problems, str):
@@ -62,7 +62,7 @@ class InternalError(Error, RuntimeError):
 
 
 class ClosedError(Error, ValueError):
-    """The object was closed before."""
+    """The object has been closed."""
 
 
 class MissingPackage(Error, ImportError):
@@ -70,9 +70,9 @@ class MissingPackage(Error, ImportError):
 
 
 class Cancelled(Error, KeyboardInterrupt):
-    """The work was stopped, by Ctrl-C as a rule; a KeyboardInterrupt, so that a script ends by it."""
+    """The work was stopped, usually by Ctrl-C; a KeyboardInterrupt, so that it ends a script."""
 
     def __init__(self, message: str = "stopped", results: Optional[Any] = None) -> None:
         super().__init__(message)
         self.results = results
-        """The partial ``Results`` of a run, marked as not complete; None where there are none."""
+        """The partial ``Results`` of a run, marked as not complete; None without any."""

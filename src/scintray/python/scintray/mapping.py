@@ -1,4 +1,4 @@
-"""Response maps, events from them, fits of scenes to measurements, and reweighting."""
+"""Response maps and events sampled from them, fits of scenes to measurements, and reweighting."""
 
 from __future__ import annotations
 
@@ -31,12 +31,13 @@ def _guarded(scene: Scene, work: Any) -> Any:
 
 
 class ResponseMap:
-    """Detection of light from each cell of the parts that scintillate, traced once (docs/response_maps.md).
+    """Detection probabilities of light from each cell of the parts that scintillate, traced once
+    (docs/response_maps.md).
 
-    ``channels`` (names), ``photons_per_cell`` (0: traced backward), ``photons_per_channel`` (0: traced forward),
-    ``parts`` (names); ``grids`` are dictionaries by part with ``low_mm``, ``pitch_mm``, ``photons`` (x, y, z: emitted
-    in each cell; 0: empty) and ``detected`` (x, y, z, channel); traced backward also with ``probability`` and
-    ``probability_error`` (x, y, z, channel).
+    ``channels`` (names), ``photons_per_cell`` (0: traced backward), ``photons_per_channel`` (0: traced
+    forward), ``parts`` (names); ``grids`` are dictionaries by part with ``low_mm``, ``pitch_mm``, ``photons``
+    (x, y, z: emitted in each cell; 0: empty) and ``detected`` (x, y, z, channel); traced backward also with
+    ``probability`` and ``probability_error`` (x, y, z, channel).
     """
 
     def __init__(self, core: Any) -> None:
@@ -57,8 +58,9 @@ class ResponseMap:
               threads: Optional[int] = None, seed: Optional[int] = None,
               progress: Progress = None) -> "ResponseMap":
         """Traces the map of a scene, in cells of at most ``pitch_mm``: ``direction`` "forward" from the cells,
-        "backward" from the channels, which needs surfaces that pass light both ways alike, or "automatic": backward
-        where that is so. Raises InputError; Cancelled.
+        "backward" from the channels, which requires reciprocal surfaces, or "automatic": backward where
+        surfaces are reciprocal. ``delays``: times of flight kept per cell and channel. Raises InputError;
+        Cancelled.
         """
         pitch = number(pitch_mm, "pitch_mm", "mm", above=0.0)
         one_of(direction, "direction", ("automatic", "forward", "backward"))
@@ -77,11 +79,12 @@ class ResponseMap:
         return made
 
     def write(self, path: PathLike) -> None:
-        """Writes the map (HDF5)."""
+        """Writes the map (HDF5). Raises SystemFailure."""
         self._core.write(path_text(path))
 
     def probability(self, part: str) -> np.ndarray:
-        """Share of the light of each cell that each channel detects (x, y, z, channel); nan in empty cells."""
+        """Detection probability by cell and channel (x, y, z, channel); nan in empty cells. Raises InputError
+        for an unknown part."""
         if part not in self.parts:
             raise names_hint("part of the map", part, self.parts)
         grid = self.grids[part]
@@ -92,8 +95,8 @@ class ResponseMap:
 
     def run(self, scene: Union[Scene, PathLike], *, output: Optional[PathLike] = None, threads: Optional[int] = None,
             seed: Optional[int] = None, events: Optional[int] = None, progress: Progress = None) -> Results:
-        """Events of a scene from the map, without tracing; ``output`` is a results file to write. The scene must be
-        that of the map, apart from source, run settings, readout and analysis.
+        """Samples events of a scene from the map, without tracing; ``output`` is a results file to write. The
+        scene must be that of the map, apart from source, run settings, readout and analysis.
 
         Raises InputError; Cancelled on Ctrl-C, with the partial results.
         """
@@ -112,7 +115,8 @@ class ResponseMap:
         return Results(data)
 
     def plot(self, ax: Optional[Any] = None, *, part: Optional[str] = None, channel: Optional[int] = None) -> Any:
-        """Draws the detected share of a part over x and z, in the middle of y, of one channel or of all together."""
+        """Draws the detected share of a part over x and z, at the middle of y, for one channel or the sum of
+        all. Returns the axes."""
         ax = axes_for(ax)
         part = part or self.parts[0]
         share = self.probability(part)
@@ -138,9 +142,10 @@ class ResponseMap:
 
 
 class FitParameter(Shown):
-    """A fitted parameter: ``name``, ``value`` with its whole error, ``unit``, ``monte_carlo_error`` (part of it),
-    ``interval`` (one standard error of its ``variable``, "value" or "inverse", to both sides), ``in_variable`` (the
-    value or its inverse, with that error), ``start``, ``low``, ``high``, ``at_bound``, ``determined``."""
+    """A fitted parameter: ``name``, ``value`` with its total error, ``unit``, ``monte_carlo_error`` (part of
+    it), ``interval`` (one standard error of its ``variable``, "value" or "inverse", to both sides),
+    ``in_variable`` (the value or its inverse, with that error), ``start``, ``low``, ``high``, ``at_bound``,
+    ``determined``."""
 
     name: str
     unit: str
@@ -169,9 +174,9 @@ class FitParameter(Shown):
 
 
 class Fit:
-    """A fit of a scene to a measurement: ``end`` ("converged", "not_converged", "stopped"), ``parameters`` (by name),
-    ``correlation``, ``scale``, ``x``, ``measured``, ``curve`` and ``start_curve`` (n, 2: with errors), ``residual``,
-    ``chi2``, ``degrees``, ``p_value``, ``warnings``."""
+    """A fit of a scene to a measurement: ``end`` ("converged", "not_converged", "stopped"), ``parameters`` (by
+    name), ``correlation`` (p, p), ``scale``, ``x`` (n,), ``measured``, ``curve`` and ``start_curve`` (n, 2:
+    with errors), ``residual`` (n,: over its error), ``chi2``, ``degrees``, ``p_value``, ``warnings``."""
 
     title: str
     end: str
@@ -202,7 +207,7 @@ class Fit:
         return dataframe(columns, {self.position or "incidence": self.position_unit})
 
     def plot(self, ax: Optional[Any] = None) -> Any:
-        """Draws the measurement, the fitted curve, and that of the start."""
+        """Draws the measurement, the fitted curve, and the curve of the start. Returns the axes."""
         ax = axes_for(ax)
         ax.errorbar(self.x, *self.measured.T, fmt="o", markersize=4, capsize=2, label="measured")
         ax.errorbar(self.x, self.scale.value * self.curve[:, 0], self.scale.value * self.curve[:, 1], label="fit")
@@ -224,9 +229,10 @@ class Fit:
 
 def fit(scene: Union[Scene, PathLike], *, threads: Optional[int] = None, photons: Optional[int] = None,
         events: Optional[int] = None, progress: Progress = None, output: Optional[PathLike] = None) -> Fit:
-    """Fits the [fit] of a scene to its measurement (docs/fit.md); ``output`` is a file (HDF5) to write it to.
+    """Fits the [fit] of a scene to its measurement (docs/fit.md); ``output`` is a file (HDF5) to which the fit
+    is written.
 
-    Raises InputError for a scene without [fit] and for every mistake of it; Cancelled.
+    Raises InputError for a scene without [fit], or with all mistakes of the scene; Cancelled.
     """
     return Fit(_guarded(as_scene(scene), lambda text, file: watched(progress, lambda call: _core.fit_scene(
         text, file, thread_count(threads), positive_integer(photons, "photons"),
@@ -242,7 +248,7 @@ class ReweightedLight(List[Dict[str, Any]]):
         self.unit = unit
 
     def to_dataframe(self) -> Any:
-        """A DataFrame with a row an entry; units in ``attrs["units"]``."""
+        """A DataFrame with one row per entry; units in ``attrs["units"]``."""
         columns: Dict[str, Any] = {name: [entry[name] for entry in self] for name in
                                    ("point", "value", "effective_photons", "valid", "reason")}
         for name in ("traced", "detected", "relative"):
@@ -252,8 +258,8 @@ class ReweightedLight(List[Dict[str, Any]]):
                                    if name not in ("valid", "reason")})
 
     def plot(self, ax: Optional[Any] = None) -> Any:
-        """Draws the detected share against the values, a curve for each point; open circles where the histories do not
-        reach (``valid`` is False)."""
+        """Draws the detected share against the values, a curve for each point; open circles mark values that
+        are not valid (``valid`` is False). Returns the axes."""
         ax = axes_for(ax)
         for point in sorted({entry["point"] for entry in self}):
             rows = sorted((e for e in self if e["point"] == point), key=lambda e: float(e["value"]))

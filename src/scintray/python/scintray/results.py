@@ -1,4 +1,4 @@
-"""Results of runs: fates with uncertainties, tallies, events and lists of photons as arrays."""
+"""Results of runs: fates with uncertainties, tallies, events and photon lists as arrays."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ __all__ = ["Events", "Point", "Results", "open_results"]
 
 
 class Events(Shown):
-    """The events of a point, in columns: arrays over the library's memory, read-only.
+    """The events of a point, in columns: read-only views of the library's memory.
 
     Per event: ``event`` (number), ``energy_keV`` (deposited in scintillators), ``escaped_keV``,
     ``non_scintillating_keV``, ``position_mm`` (n, 3: mean of the deposits weighted by energy), ``part`` (index into
@@ -62,16 +62,18 @@ class Events(Shown):
 
     @property
     def has_readout(self) -> bool:
-        """True when charges are available."""
+        """True when the scene has a [readout], so that charges are available."""
         return self.charge.size > 0 and not bool(np.isnan(self.charge).any())
 
     @property
     def light(self) -> np.ndarray:
-        """Light of all channels together, per event: charge in photoelectrons, without [readout] photons."""
+        """Sum of the light of all channels, per event (n,): charge in photoelectrons, or detected photons
+        without [readout]."""
         return (self.charge if self.has_readout else self.channel_detected).sum(axis=1)
 
     def to_dataframe(self) -> Any:
-        """A DataFrame with a row an event; units are in ``attrs["units"]``."""
+        """A DataFrame with one row per event; units in ``attrs["units"]``. Raises MissingPackage without
+        pandas."""
         columns: Dict[str, Any] = {name: getattr(self, name) for name in self._PER_EVENT}
         columns["part"] = [self._parts[i] if i >= 0 else None for i in self.part]
         for k, axis in enumerate("xyz"):
@@ -80,7 +82,8 @@ class Events(Shown):
         return dataframe(columns, {**self._UNITS, "light": "photoelectrons" if self.has_readout else "1"})
 
     def to_xarray(self) -> Any:
-        """A Dataset over ``event`` and ``channel``, with units as attributes."""
+        """A Dataset over ``event`` and ``channel``, with units as attributes. Raises MissingPackage without
+        xarray."""
         xarray = need("xarray", "to_xarray()")
         data: Dict[str, Any] = {}
         for name in self._PER_EVENT[1:]:
@@ -92,7 +95,7 @@ class Events(Shown):
         return xarray.Dataset(data, {"event": self.event, "channel": self.channels["name"], "axis": list("xyz")})
 
     def plot(self, ax: Optional[Any] = None, *, bins: Any = "auto") -> Any:
-        """Draws the histogram of the light of the events."""
+        """Draws the histogram of the light of the events. Returns the axes."""
         ax = axes_for(ax)
         counts, edges = np.histogram(self.light[self.light > 0], bins=bins)
         ax.stairs(counts, edges)
@@ -117,11 +120,11 @@ class Events(Shown):
 class Point:
     """Results of one point of a sweep (a run without a sweep has one).
 
-    ``photons`` emitted of ``photons_requested``; ``photons_traced``, of which ``fate_count`` (in the order of
-    ``Results.fates``) is: all but those that no sensor would convert, where ``birth_efficiency`` is below 1;
-    ``interactions``, ``detected_path_mm``, ``detected_time_ns``, ``detected_interactions`` (``Moments``),
-    ``detected_path_histogram`` (10 mm bins), ``segments``, ``scatterings``, ``energy`` (balance of an event source,
-    keV), ``sensor_faces`` (columns), ``tallies`` (by name), ``wall_seconds``, ``complete``.
+    ``photons`` emitted of ``photons_requested``; ``photons_traced``, those counted in ``fate_count`` (in the
+    order of ``Results.fates``): all but those that no sensor would convert, where ``birth_efficiency`` is below
+    1; ``interactions``, ``detected_path_mm``, ``detected_time_ns``, ``detected_interactions`` (``Moments``),
+    ``detected_path_histogram`` (10 mm bins), ``segments``, ``scatterings``, ``energy`` (balance of an event
+    source, keV), ``sensor_faces`` (columns), ``tallies`` (by name), ``wall_seconds``, ``complete``.
     """
 
     photons: int
@@ -180,7 +183,7 @@ class Point:
         return self.tallies[name]
 
     def plot(self, ax: Optional[Any] = None) -> Any:
-        """Draws the shares of the fates as bars with their errors."""
+        """Draws the shares of the fates as bars with their errors. Returns the axes."""
         ax = axes_for(ax)
         shown = [i for i, count in enumerate(self.fate_count) if count]
         names = [self.fate_names[i].replace("_", " ") for i in shown]
@@ -197,7 +200,7 @@ class Point:
         return self._html("")
 
     def _html(self, before: str) -> str:
-        """The table that notebooks show, with a text before its title."""
+        """The table for notebooks, with a text before its title."""
         rows = [(name, int(n), str(f)) for (name, f), n in zip(self.fates.items(), self.fate_count) if n]
         return html_table(before + (", ".join(f"{k} = {v}" for k, v in self.parameters.items()) or "Fates of the photons"),
                           ("fate", "photons", "share"), rows)
@@ -245,7 +248,8 @@ class Results:
     def __getitem__(self, number: slice) -> List[Point]: ...
 
     def __getitem__(self, number: Union[int, slice]) -> Union[Point, List[Point]]:
-        """The ``Point`` of a number, from the end where it is negative, or the list of those of a slice."""
+        """The ``Point`` of a number, counted from the end if negative, or the list of those of a slice. Raises
+        IndexError; InputError for a number that is not whole."""
         if isinstance(number, slice):
             return [self[i] for i in range(*number.indices(len(self)))]
         number = self._number(number)
@@ -255,7 +259,8 @@ class Results:
         return point
 
     def _number(self, number: Any) -> int:
-        """The number of a point that there is. Raises InputError for what is no whole number; IndexError."""
+        """The number of an existing point, from 0. Raises InputError for other types, IndexError for other
+        numbers."""
         if isinstance(number, bool) or not isinstance(number, (int, np.integer)):
             raise InputError(f"the point is {number!r}; expected a whole number", "points count from 0")
         if not -len(self) <= number < len(self):
@@ -276,16 +281,18 @@ class Results:
 
     @property
     def photons(self) -> np.ndarray:
-        """The detected photons, one record each, over the library's memory, read-only: ``point``, ``event``,
-        ``photon``, ``part`` and ``face`` (indices into names), ``position_mm``, ``direction``, ``wavelength_nm``,
-        ``time_ns``, ``path_mm``, ``interactions``. Raises InputError unless the scene has ``run.photon_list``."""
+        """The detected photons, one record each, as a read-only view of the library's memory: ``point``,
+        ``event``, ``photon``, ``part`` and ``face`` (indices into names), ``position_mm``, ``direction``,
+        ``wavelength_nm``, ``time_ns``, ``path_mm``, ``interactions``. Raises InputError unless the scene has
+        ``run.photon_list``."""
         core = self._open()
         if not self._header["photon_list"]:
             raise InputError("the run did not list its photons", 'set scene["run.photon_list"] = True and run again')
         return core.photons()
 
     def photons_dataframe(self) -> Any:
-        """The detected photons as a DataFrame with units in ``attrs["units"]``."""
+        """The detected photons as a DataFrame with units in ``attrs["units"]``. Raises as ``photons``, and
+        MissingPackage without pandas."""
         photons = self.photons
         columns: Dict[str, Any] = {}
         for name in photons.dtype.names or ():
@@ -307,14 +314,15 @@ class Results:
         return Events(entry, self.parts)
 
     def analyze(self, point: int = 0, settings: Optional[str] = None) -> "Analysis":
-        """The ``Analysis`` of the events of a point: spectrum, photopeak, light against depth, depth of interaction,
-        flood map, timing. ``settings`` is a text with [analysis] (docs/analysis.md) in place of the scene's."""
+        """The ``Analysis`` of the events of a point: spectrum, photopeak, light against depth, depth of
+        interaction, flood map, timing. ``settings`` is a text with [analysis] (docs/analysis.md) in place of
+        the scene's. Raises InputError for wrong settings."""
         from .analysis import Analysis
         own = None if settings is None else text_of(settings, "settings")
         return Analysis(_core.analyze(self._open(), self._number(point), own))
 
     def to_dataframe(self) -> Any:
-        """A DataFrame with a row a point: swept keys, photons, share and error of each fate."""
+        """A DataFrame with one row per point: swept keys, photons, share and error of each fate."""
         rows = []
         for point in self:
             row: Dict[str, Any] = {**point.parameters, "photons": point.photons}
@@ -337,8 +345,8 @@ class Results:
                               coordinates, {"title": self.title, "seed": self.seed})
 
     def plot(self, ax: Optional[Any] = None) -> Any:
-        """Draws the fates of one point, or the detected share against the last swept key, a curve for each
-        combination of the others."""
+        """Draws the fates of a single point, or the detected share against the last swept key, a curve for each
+        combination of the others. Returns the axes."""
         if len(self) == 1:
             return self[0].plot(ax)
         ax = axes_for(ax)
@@ -379,7 +387,7 @@ class Results:
 
 
 def _positions(values: Sequence[str]) -> Any:
-    """Numbers of "2 mm" and the like where all have one unit, else the texts."""
+    """Numbers of texts such as "2 mm" where all have the same unit, else the texts."""
     words = [value.split() for value in values]
     try:
         if len({tuple(w[1:]) for w in words}) == 1:

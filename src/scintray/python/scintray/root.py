@@ -1,4 +1,5 @@
-"""Lists of hits in ROOT files in, detected photons out, through the package uproot where it is installed."""
+"""Import of lists of hits from ROOT files, export of detected photons to them, by the optional package
+uproot."""
 
 from __future__ import annotations
 
@@ -53,17 +54,17 @@ def read_root_hits(path: Union[str, "os.PathLike[str]"], tree: str = "Hits", *,
                    energy_unit: str = "MeV", time_unit: Optional[str] = None) -> Deposits:
     """Energy deposits of a tree of hits, for ``run(deposits=...)``.
 
-    Raises MissingPackage without uproot; InputError for a tree or branches that are not there.
+    Raises MissingPackage without uproot; InputError for a missing tree or missing branches.
 
     Parameters
     ----------
     path : ROOT file
     tree : name of its tree
-    columns : branch of each of ``event``, ``x``, ``y``, ``z``, ``energy``, and where there are such of ``time``,
+    columns : branch of each of ``event``, ``x``, ``y``, ``z``, ``energy``, and optionally of ``time``,
         ``dx``, ``dy``, ``dz`` and the other columns of steps of ``Deposits``; None: those of GATE 9 or GATE 10,
         whichever the tree has
-    run : branch with the number of the run; events of one number in different runs are different events. None: GATE's,
-        where the tree has it
+    run : branch with the number of the run; equal event numbers in different runs are different events. None:
+        GATE's, if the tree has it
     length_unit, energy_unit : of the tree; mm and MeV, as GATE and Geant4 write
     time_unit : of the tree; None: s for GATE 9, ns for GATE 10 and for ``columns``
     """
@@ -108,9 +109,10 @@ def read_root_hits(path: Union[str, "os.PathLike[str]"], tree: str = "Hits", *,
 
 
 def write_root_photons(results: Results, path: Union[str, "os.PathLike[str]"], tree: str = "photons") -> int:
-    """Writes the detected photons of a run (``photon_list = true``) as a tree, a branch for each column: mm, nm, ns.
+    """Writes the detected photons of a run (``photon_list = true``) as a tree, a branch for each column, in mm,
+    nm, ns.
 
-    Returns the number of photons. Raises MissingPackage without uproot, and as ``Results.photons`` does.
+    Returns the number of photons. Raises MissingPackage without uproot, and as ``Results.photons``.
     """
     path, tree = path_text(path), text_of(tree, "tree")
     uproot = _uproot("write_root_photons()")

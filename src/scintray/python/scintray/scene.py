@@ -33,9 +33,10 @@ KeyPath = _toml.Path
 
 
 def quantity(value: Any, unit: str) -> Any:
-    """A quantity as scenes write it: ``quantity(2.5, "mm")`` is "2.5 mm", an array a list of such texts.
+    """A quantity in the notation of scenes: ``quantity(2.5, "mm")`` is "2.5 mm"; of an array, a list of such
+    texts.
 
-    Numbers keep all their digits. Raises InputError for a number that is not finite.
+    Numbers have all their digits. Raises InputError for numbers that are not finite, and for other types.
     """
     text_of(unit, "unit")
     array = np.asarray(value)
@@ -56,10 +57,10 @@ class Mesh(Shown):
     ----------
     vertices : (n, 3) numbers, finite, in ``unit``
     triangles : (m, 3) indices of vertices from 0, counter-clockwise seen from outside
-    unit : "mm", "cm", "um", ...: required, since a wrong guess is a detector ten times too large
+    unit : "mm", "cm", "um", ...: required, since a wrong default would scale the detector
 
     Raises InputError for other shapes, numbers that are not finite, and indices without a vertex; whether the
-    mesh is closed is tested when the scene is built.
+    mesh is closed is checked when the scene is built.
     """
 
     def __init__(self, vertices: Any, triangles: Any, unit: str) -> None:
@@ -82,7 +83,7 @@ class Mesh(Shown):
         self.unit = unit
 
     def write(self, path: Union[str, "os.PathLike[str]"]) -> None:
-        """Writes a PLY file: binary, vertices in double precision, all their bits."""
+        """Writes a binary PLY file with vertices in double precision. Raises SystemFailure."""
         header = ("ply\nformat binary_little_endian 1.0\n"
                   f"element vertex {len(self.vertices)}\n"
                   "property double x\nproperty double y\nproperty double z\n"
@@ -93,7 +94,8 @@ class Mesh(Shown):
         _write(path_of(path), header.encode("ascii") + self.vertices.astype("<f8").tobytes() + faces.tobytes())
 
     def plot(self, ax: Optional[Any] = None, *, plane: str = "xz") -> Any:
-        """Draws the edges between faces, projected onto a plane ("xy", "xz" or "yz"), in the mesh's unit."""
+        """Draws the edges between faces, projected onto a plane ("xy", "xz" or "yz"), in the mesh's unit.
+        Returns the axes."""
         ax = axes_for(ax)
         draw_edges(ax, one_of(plane, "plane", PLANES), self.vertices, self.triangles, self.unit)
         return ax
@@ -112,16 +114,18 @@ class Mesh(Shown):
 
 
 class Scene:
-    """A scene: its keys as in a scene file (docs/scene_files.md), each of which can be read and set by its path.
+    """A scene: its keys as in a scene file (docs/scene_files.md), each of which can be read and set by its
+    path.
 
     >>> scene = Scene.load("first.toml")
     >>> scene["part.crystal.surface"] = "lso_ground_30um"
     >>> scene["source.photons"] = 10_000
 
     Entries of lists are addressed by their name ("part.crystal.face.exit.surface") or number, elements of three
-    by x, y and z. Values are what the file would hold: text with the unit ("2 mm", see ``quantity``), numbers,
-    lists, dictionaries; a part's ``mesh`` may also be a ``Mesh``. Every key is checked when the scene is used, by
-    the reader of scene files, so that messages have the line of ``text``.
+    by x, y and z. Values are as in the file: text with the unit ("2 mm", see ``quantity``), numbers,
+    lists, dictionaries; a part's ``mesh`` may also be a ``Mesh``. Every key is checked when the scene is used,
+    by the reader of scene files, so that messages have the line of ``text``. Paths that do not exist raise
+    InputError.
 
     The dictionary itself is ``data``. ``part``, ``array`` and ``define`` add entries to it.
     """
@@ -151,7 +155,8 @@ class Scene:
 
     @classmethod
     def from_text(cls, text: str, folder: Union[str, "os.PathLike[str]", None] = None) -> "Scene":
-        """The scene of a TOML text; relative paths in it count from ``folder`` (the working folder)."""
+        """The scene of a TOML text; paths in it are relative to ``folder`` (default: the working folder).
+        Raises InputError for text that is not TOML."""
         scene = cls()
         text_of(text, "the text of a scene")
         if folder is not None:
@@ -186,14 +191,14 @@ class Scene:
         return True
 
     def copy(self) -> "Scene":
-        """An independent copy; meshes, which do not change, are shared."""
+        """An independent copy; meshes, which are immutable, are shared."""
         twin = Scene()
         twin.data, twin._order = copy.deepcopy((self.data, self._order), {id(m): m for m in self._all_meshes()})
         twin._folder, twin._file, twin._original = self._folder, self._file, self._original
         return twin
 
     def with_keys(self, changes: Mapping[str, Any]) -> "Scene":
-        """A copy in which the keys at these paths have these values."""
+        """A copy in which the keys at these paths have these values. Raises InputError as setting a key."""
         twin = self.copy()
         for path, value in changes.items():
             twin[path] = value
@@ -213,7 +218,7 @@ class Scene:
     def part(self, name: str, *, mesh: Union[Mesh, str, "os.PathLike[str]", None] = None,
              faces: Sequence[Mapping[str, Any]] = (), **keys: Any) -> "Scene":
         """Adds a [[part]]: its shape (``mesh`` or box, cylinder, prism, tapered, winston, sphere), medium, surface,
-        sensor, place, ... and the rules of its faces. Returns the scene.
+        sensor, place, ... and the rules of its faces. Returns the scene. Raises InputError for a name in use.
 
         >>> scene.part("crystal", box=["2 mm", "2 mm", "20 mm"], medium="LYSO", surface="polished")
         """
@@ -230,8 +235,9 @@ class Scene:
         return self._add("light_guide", name, keys)
 
     def define(self, kind: str, name: str, **keys: Any) -> "Scene":
-        """Defines a medium, surface, sensor or reflector of the scene's own: ``define("surfaces", "wrapped",
-        base="polished", gap="air", reflector="ESR")`` (docs/materials.md). Returns the scene."""
+        """Adds a medium, surface, sensor or reflector of the scene's own: ``define("surfaces", "wrapped",
+        base="polished", gap="air", reflector="ESR")`` (docs/materials.md). Returns the scene. Raises InputError
+        for another ``kind``."""
         kinds = ("media", "surfaces", "sensors", "reflectors")
         if kind not in kinds:
             raise InputError(f"{kind!r} is not a kind of definitions", "it is one of " + ", ".join(kinds))
@@ -262,7 +268,7 @@ class Scene:
         return self._original is not None and not self._all_meshes() and self.data == self._original[1]
 
     def _text_with(self, folder: Optional[Path]) -> str:
-        """The text, with the meshes in a folder: beside the text, or (None) with their whole path."""
+        """The text, with the meshes in a folder: beside the text, or (None) with their full paths."""
         if self._unchanged():
             assert self._original is not None
             return self._original[0]
@@ -293,12 +299,13 @@ class Scene:
 
     @property
     def text(self) -> str:
-        """The scene as TOML: the file's own as long as nothing was changed."""
+        """The scene as TOML: the text of the file while nothing is changed. Raises InputError for values that a
+        scene cannot hold."""
         return self._text_with(None)
 
     @property
     def file(self) -> str:
-        """The name of the scene in messages and results; relative paths count from its folder."""
+        """The name of the scene in messages and results; paths are relative to its folder."""
         if self._file is not None:
             return str(self._file) if self._unchanged() else f"{self._file} (changed in Python)"
         return str(self._folder / "scene made in Python")
@@ -306,8 +313,8 @@ class Scene:
     def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
         """Writes the scene as a file, with the files of its meshes beside it, for the program ``scintray``.
 
-        Relative paths in the scene stay as they are, and so must count from the new folder. Raises SystemFailure for
-        a file that cannot be written.
+        Relative paths in the scene are not changed, and must therefore be valid from the new folder. Raises
+        SystemFailure for a file that cannot be written.
         """
         file = path_of(path)
         text = self._text_with(file.parent)
@@ -316,18 +323,18 @@ class Scene:
     # Use
 
     def simulation(self, **options: Any) -> Any:
-        """The ``Simulation`` of this scene as it is now; options as there."""
+        """A ``Simulation`` of a copy of this scene, with its options. Raises InputError with all mistakes."""
         from .simulation import Simulation
         return Simulation(self, **options)
 
     def run(self, *, progress: Any = None, output: Any = None, deposits: Any = None, photon_list: Any = None,
             **options: Any) -> Any:
-        """Runs the scene: ``Simulation(scene, **options).run(...)``. Returns ``Results``."""
+        """Runs the scene: ``Simulation(scene, **options).run(...)``. Returns ``Results``; raises as there."""
         with self.simulation(**options) as simulation:
             return simulation.run(progress=progress, output=output, deposits=deposits, photon_list=photon_list)
 
     def check(self) -> List[str]:
-        """Builds the scene and returns its warnings. Raises InputError with every mistake of it."""
+        """Builds the scene and returns its warnings. Raises InputError with all mistakes of the scene."""
         with self.simulation() as simulation:
             return simulation.check()
 
@@ -360,7 +367,7 @@ class Scene:
 
 
 def as_scene(scene: Any) -> Scene:
-    """A scene, or that of a file by its path."""
+    """A scene, or that of the file of a path. Raises InputError for other types."""
     if isinstance(scene, (str, os.PathLike)):
         return Scene.load(scene)
     if not isinstance(scene, Scene):
@@ -383,7 +390,7 @@ def _write(path: Path, content: bytes) -> None:
 
 
 def _temporary_folder(owner: Any) -> Path:
-    """A folder that is removed when nothing refers to ``owner`` any more."""
+    """A temporary folder that is removed with ``owner``."""
     folder = tempfile.mkdtemp(prefix="scintray-")
     weakref.finalize(owner, shutil.rmtree, folder, ignore_errors=True)
     return Path(folder)
@@ -401,7 +408,7 @@ def _nested(value: Any) -> Any:
 
 
 def _with_unit(entry: Any) -> Any:
-    """A table of a part with the unit of its mesh, where that is an array."""
+    """The table of a part, with the unit of its mesh added where that is a ``Mesh``."""
     if not isinstance(entry, dict):
         return entry
     if isinstance(entry.get("mesh"), Mesh):
@@ -412,7 +419,7 @@ def _with_unit(entry: Any) -> Any:
 
 
 def draw_edges(ax: Any, plane: str, vertices: np.ndarray, triangles: np.ndarray, unit: str = "mm", **style: Any) -> None:
-    """Draws the edges between triangles of different planes, projected onto a plane."""
+    """Draws the edges between triangles that are not coplanar, projected onto a plane."""
     lines = vertices[_sharp_edges(vertices, triangles)][:, :, ["xyz".index(axis) for axis in plane]]
     flat = np.full((len(lines), 3, 2), np.nan)
     flat[:, :2] = lines
@@ -423,7 +430,7 @@ def draw_edges(ax: Any, plane: str, vertices: np.ndarray, triangles: np.ndarray,
 
 
 def _sharp_edges(vertices: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    """Edges (n, 2) between triangles of different planes."""
+    """Edges (n, 2) between triangles that are not coplanar."""
     corners = vertices[triangles]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-300)

@@ -45,7 +45,7 @@ class Deposits(Shown):
     event : (n,) whole numbers from 0
     position : (n, 3) in ``length_unit``, in the coordinates of the scene
     energy : (n,) in ``energy_unit``, from 0
-    time : (n,) in ``time_unit``; counted from the first deposit of each event; None: all at once
+    time : (n,) in ``time_unit``; relative to the first deposit of each event; None: simultaneous
     displacement : (n, 3) in ``length_unit``, to the end of a particle's step; None: deposits are points
     steps : further columns of steps, (n,) each: ``beta``, ``beta_end`` (velocities over that of light), ``charge``,
         ``particle`` (codes of the Particle Data Group), ``kinetic`` (energy at the start, in ``energy_unit``),
@@ -91,7 +91,7 @@ class Deposits(Shown):
         return len(self.event)
 
     def to_dataframe(self) -> Any:
-        """A DataFrame with a row a deposit; units in ``attrs["units"]``."""
+        """A DataFrame with one row per deposit; units in ``attrs["units"]``."""
         columns: Dict[str, Any] = {"event": self.event.astype(np.int64), "energy_keV": self.energy_keV}
         for k, axis in enumerate("xyz"):
             columns[f"{axis}_mm"] = self.position_mm[:, k]
@@ -116,8 +116,8 @@ class Deposits(Shown):
 class PhotonList(Shown):
     """Photons of another program: one row each, rows of one event number are one event.
 
-    Raises InputError for other shapes, numbers that are not finite, and unknown units; what else is wrong is found,
-    with its row, when the scene is built (docs/gamma_sources.md).
+    Raises InputError for other shapes, numbers that are not finite, and unknown units; other errors are
+    reported, with their rows, when the scene is built (docs/gamma_sources.md).
 
     Parameters
     ----------
@@ -127,7 +127,8 @@ class PhotonList(Shown):
     energy : (n,) in ``energy_unit``
     event : (n,) whole numbers from 0; None: the scene's source has ``photons_per_event``
     time : (n,) in ``time_unit``; None: all at 0
-    polarisation : (n, 3), of any length; a row of zeros, and None: drawn at random across the direction
+    polarisation : (n, 3), of any length; for a row of zeros, or None, drawn at random perpendicular to the
+        direction
     """
 
     def __init__(self, position: Any, direction: Any, wavelength: Any = None, *, energy: Any = None, event: Any = None,
@@ -169,11 +170,11 @@ class PhotonList(Shown):
 
     @property
     def position_mm(self) -> np.ndarray:
-        """Where the photons start (n, 3)."""
+        """Starting points of the photons (n, 3), mm."""
         return np.column_stack([self.columns[axis] for axis in "xyz"])
 
     def plot(self, ax: Optional[Any] = None, *, plane: str = "xz") -> Any:
-        """Draws where the photons start, projected onto a plane ("xy", "xz" or "yz"), coloured by wavelength."""
+        """Draws the starting points, projected onto a plane ("xy", "xz" or "yz"), coloured by wavelength."""
         return _draw_points(ax, plane, self.position_mm, self.columns["wavelength"], "wavelength (nm)")
 
     def _rows(self) -> Any:
@@ -248,7 +249,7 @@ class ProgressBar:
 
 
 def with_source(error: InputError, text: str, file: str) -> InputError:
-    """The error with the line of a scene's text in each problem: a scene made in Python has no file to look at."""
+    """The error with the line of the scene's text in each problem, as a scene made in Python has no file."""
     lines = text.splitlines()
     for problem in error.problems:
         if isinstance(problem, Problem) and problem.file == file and 0 < problem.line <= len(lines):
@@ -257,7 +258,8 @@ def with_source(error: InputError, text: str, file: str) -> InputError:
 
 
 def watched(progress: Progress, work: Callable[[Optional[Callable[[int, int, str], Any]]], Any]) -> Any:
-    """Does work with a callable for progress: None, the caller's, or a bar."""
+    """Result of ``work``, called with the progress function: None, the caller's, or a bar. Raises InputError
+    for others."""
     if progress is not None and not isinstance(progress, bool) and not callable(progress):
         raise InputError(f"progress is {progress!r}; expected True, or a function",
                          "write progress=True, or progress=f with f(done, of, thing)")
@@ -271,19 +273,19 @@ def watched(progress: Progress, work: Callable[[Optional[Callable[[int, int, str
 
 
 class Simulation:
-    """A scene, ready to be run, any number of times, with the same result each time.
+    """A scene that can be run any number of times, with the same result each time.
 
     Parameters
     ----------
     scene : Scene, or the path of a scene file
-    threads : number of threads (all cores); no result depends on it
+    threads : number of threads (default: all cores); no result depends on it
     seed, photons, events : in place of the scene's, per point of its sweep
     quick : the scene's quick_photons or quick_events in place of its full number
 
-    A run has the numbers of ``scintray run`` of the same scene, to the last bit. One thread of Python uses a
-    simulation at a time; while it traces, others run (the interpreter's lock is released).
+    A run is bit-identical to ``scintray run`` of the same scene. A simulation may be used by one thread of
+    Python at a time; the interpreter's lock is released during tracing, so that other threads continue.
 
-    Raises InputError with every mistake of the scene.
+    Raises InputError with all mistakes of the scene; methods raise ClosedError after ``close()``.
     """
 
     def __init__(self, scene: Union[Scene, str, "os.PathLike[str]"], *, threads: Optional[int] = None,
@@ -312,12 +314,12 @@ class Simulation:
         return self._open().points()
 
     def parameters(self, point: int = 0) -> Dict[str, str]:
-        """Values of the swept keys at a point, as written."""
+        """Values of the swept keys at a point, as written in the scene."""
         core = self._open()
         return dict(zip(core.sweep_keys(), core.parameters(_index(point))))
 
     def check(self) -> List[str]:
-        """Builds the scene and returns its warnings. Raises InputError with every mistake of it."""
+        """Builds the scene and returns its warnings. Raises InputError with all mistakes of the scene."""
         core = self._open()
         return self._guard(core.check)
 
@@ -334,14 +336,14 @@ class Simulation:
         Parameters
         ----------
         progress : True for a bar, or a function of (done, of, thing), called in this thread about 20 times a
-            second at most; when it returns False the run stops, and the results are partial
-        output : path of a results file (HDF5); lists of photons and events are then read from it when they are
-            used, in place of being kept in memory
+            second at most; the run stops when it returns False, and the results are partial
+        output : path of a results file (HDF5); photon lists and events are then read from it when needed,
+            instead of being kept in memory
         deposits : of a scene whose source is ``{"type": "hits", "arrays": True}``
         photon_list : of a scene whose source is ``{"type": "photon_list", "arrays": True}``
 
-        Raises InputError; SystemFailure; Cancelled on Ctrl-C, with the partial results; and what the function
-        for progress raised.
+        Raises InputError; SystemFailure; Cancelled on Ctrl-C, with the partial results; and exceptions of the
+        progress function.
         """
         core = self._open()
         if deposits is not None:
@@ -383,7 +385,7 @@ class Simulation:
         return ax
 
     def close(self) -> None:
-        """Releases the scene; results stay."""
+        """Releases the scene; results remain valid."""
         self._core = None
 
     def __enter__(self) -> "Simulation":

@@ -23,7 +23,7 @@ _KINDS = ("media", "surfaces", "sensors", "reflectors")
 
 def names(kind: str, definitions: str = "") -> List[str]:
     """Names in the material database: of "media", "surfaces", "sensors" or "reflectors". ``definitions`` is a text
-    with further ones ([surfaces.NAME], ...)."""
+    with further ones ([surfaces.NAME], ...). Raises InputError for another kind."""
     if kind not in _KINDS:
         raise names_hint("kind of definitions", kind, _KINDS)
     return _core.definitions(kind, text_of(definitions, "definitions"))
@@ -46,7 +46,7 @@ class Medium:
     ``emission`` (relative number of photons per nm), all (n,); ``yield_per_keV``, ``density_g_per_cm3`` (0: not
     stated), ``decay`` (decay ns, rise ns, share of the light), ``sources``.
 
-    Raises InputError for an unknown name, with the nearest.
+    Raises InputError for an unknown name, with the nearest, and for wavelengths that are not positive.
     """
 
     index: np.ndarray
@@ -75,7 +75,7 @@ class Medium:
                           "index": "1", "group_index": "1", "emission": "1/nm"})
 
     def plot(self, ax: Optional[Any] = None) -> Any:
-        """Draws the refractive index and, where the medium scintillates, its emission."""
+        """Draws the refractive index and, if the medium scintillates, its emission. Returns the axes."""
         ax = axes_for(ax)
         ax.plot(self.wavelength_nm, self.index, label="refractive index")
         ax.set_xlabel("wavelength (nm)")
@@ -99,7 +99,7 @@ class Medium:
 
 
 class Goniometer:
-    """Readings of one surface by a parallel beam, at each angle of incidence.
+    """Goniometer readings of one surface in a parallel beam, at each angle of incidence.
 
     ``incidence_deg`` (n,), ``reflectance``, ``transmittance``, ``absorptance`` (n, 2: with errors), ``slope_deg``
     (n, 2: mean visible slope; None for surfaces without facets), ``reflected_per_sr`` and ``transmitted_per_sr``
@@ -122,7 +122,7 @@ class Goniometer:
         self.warnings: List[str] = entry["warnings"]
 
     def to_dataframe(self) -> Any:
-        """A DataFrame with a row an angle; units in ``attrs["units"]``."""
+        """A DataFrame with one row per angle; units in ``attrs["units"]``."""
         columns: Dict[str, Any] = {"incidence_deg": self.incidence_deg}
         for name in ("reflectance", "transmittance", "absorptance"):
             columns[name], columns[f"{name}_error"] = getattr(self, name).T
@@ -142,7 +142,8 @@ class Goniometer:
                                      "angle": ("angle", self.profile_deg, {"units": "deg"})}, {"surface": self.surface})
 
     def plot(self, ax: Optional[Any] = None) -> Any:
-        """Draws the profile in the plane of incidence of one angle, or the shares against several."""
+        """Draws the profile in the plane of incidence for a single angle, or the shares against incidence for
+        several. Returns the axes."""
         ax = axes_for(ax)
         if len(self.incidence_deg) == 1:
             for name, values in (("reflected", self.reflected_per_sr[0]), ("transmitted", self.transmitted_per_sr[0])):
@@ -174,7 +175,8 @@ class Goniometer:
 def goniometer(surface: str, incidence_deg: Any, *, inside: str = "LSO", outside: str = "air",
                wavelength_nm: float = 420.0, side: str = "inside", rays: int = 100_000, seed: int = 1,
                half_width_deg: float = 5.0, definitions: str = "") -> Goniometer:
-    """Reads a surface of the material database with a parallel beam of unpolarised light (docs/surfaces.md).
+    """Goniometer reading of a surface of the material database in a parallel beam of unpolarised light
+    (docs/surfaces.md).
 
     Parameters
     ----------
@@ -215,12 +217,13 @@ class SurfaceTable:
         return cls(_core.read_table(path_text(path)))
 
     def write(self, path: PathLike) -> None:
-        """Writes the table (HDF5), for ``model = "table"`` of a surface."""
+        """Writes the table (HDF5), for ``model = "table"`` of a surface. Raises SystemFailure."""
         self._core.write(path_text(path))
 
     def reflectance(self, incidence_deg: Any, side: str = "inside", slice: int = 0) -> np.ndarray:
-        """Reflectance at angles (deg), linear between nodes, of the shape of ``incidence_deg``; beyond the last node
-        its own. Raises InputError for angles outside of 0 to 90, another side, and a slice that there is not."""
+        """Reflectance at angles (deg), linear between nodes, of the shape of ``incidence_deg``; beyond the last
+        node that of the last. Raises InputError for angles outside 0 to 90, another side, and a slice that does
+        not exist."""
         shape = np.shape(incidence_deg)
         angles = numbers(np.ravel(incidence_deg), "incidence_deg", (-1,), "deg")
         wrong = np.flatnonzero((angles < 0) | (angles > 90))
@@ -233,7 +236,7 @@ class SurfaceTable:
         return self.slices[index_of(number, "slice", len(self.slices))]
 
     def plot(self, ax: Optional[Any] = None, slice: int = 0) -> Any:
-        """Draws the reflectance against incidence, from both sides."""
+        """Draws the reflectance against incidence, from both sides. Returns the axes."""
         ax = axes_for(ax)
         for side in ("inside", "outside"):
             nodes = self._slice(slice)[side]
@@ -352,9 +355,9 @@ class HeightMap:
 
     def prepared(self, *, level: Optional[int] = 1, gaussian_um: Optional[float] = None, median: Optional[int] = None,
                  outliers: Optional[float] = None, fill_missing: bool = False) -> "HeightMap":
-        """A copy without outliers (beyond so many robust standard deviations), with missing points filled, filtered
-        by a median (radius in points) and a Gaussian (standard deviation, um), and less a polynomial of degree
-        ``level`` (0: the mean; None: nothing)."""
+        """A copy without outliers (beyond ``outliers`` robust standard deviations), with missing points filled,
+        filtered by a median (radius in points) and a Gaussian (standard deviation, um), and with a polynomial
+        of degree ``level`` subtracted (0: the mean; None: none). Raises InputError for numbers out of range."""
         return HeightMap._of(self._core.prepared(
             None if level is None else whole(level, "level", most=20),
             None if gaussian_um is None else number(gaussian_um, "gaussian_um", "um", above=0.0),
@@ -370,18 +373,18 @@ class HeightMap:
     def table(self, inside: float, outside: float = 1.0, *, rays: int = 2000, seed: int = 1, directional: bool = False,
               reciprocal: bool = False, progress: Progress = None) -> SurfaceTable:
         """The ``SurfaceTable`` of the map between media of these refractive indices, traced with ``rays`` for each
-        incidence and azimuth."""
+        angle of incidence and azimuth. Raises InputError; Cancelled."""
         index = [number(inside, "inside", above=0.0), number(outside, "outside", above=0.0)]
         return SurfaceTable(watched(progress, lambda call: _core.build_table(
             self._core, index[0], index[1], whole(rays, "rays", least=1), whole(seed, "seed"),
             flag(directional, "directional"), flag(reciprocal, "reciprocal"), call)))
 
     def write(self, path: PathLike) -> None:
-        """Writes a Gwyddion simple field (.gsf)."""
+        """Writes a Gwyddion simple field (.gsf). Raises SystemFailure."""
         self._core.write(path_text(path))
 
     def plot(self, ax: Optional[Any] = None) -> Any:
-        """Draws the heights."""
+        """Draws the heights. Returns the axes."""
         ax = axes_for(ax)
         heights, (x, y) = self.heights_um, self.pitch_um
         image = ax.imshow(heights, origin="lower", extent=(0, x * heights.shape[1], 0, y * heights.shape[0]),

@@ -12,7 +12,8 @@ __all__ = ["Moments", "Tally", "TallyAxis"]
 
 
 class Moments(Shown):
-    """Mean and spread of a number over photons or events: ``count``, ``mean``, ``standard_deviation``."""
+    """Mean and spread of a quantity over photons or events: ``count``, ``mean`` with its error,
+    ``standard_deviation``."""
 
     def __init__(self, entry: Dict[str, Any]) -> None:
         self.count: int = entry["count"]
@@ -27,7 +28,7 @@ class Moments(Shown):
 
 
 class TallyAxis:
-    """An axis of a tally: ``edges`` in ``unit`` of a number, or ``names``; ``bins`` of them."""
+    """An axis of a tally: ``bins`` bins with ``edges`` (bins + 1) in ``unit``, or with ``names`` (bins)."""
 
     def __init__(self, entry: Dict[str, Any]) -> None:
         self.variable: str = entry["variable"]
@@ -38,7 +39,7 @@ class TallyAxis:
 
     @property
     def centres(self) -> np.ndarray:
-        """Middles of the bins in ``unit``; numbers from 0 for names."""
+        """Centres of the bins (bins,) in ``unit``; numbers from 0 for names."""
         return np.arange(self.bins) if self.names else 0.5 * (self.edges[1:] + self.edges[:-1])
 
     @property
@@ -52,8 +53,9 @@ class TallyAxis:
 class Tally:
     """Sums over the photons of a point on a grid of axes (docs/tallies.md).
 
-    ``sum`` and ``error``, its one-sigma standard error, have one dimension for each of ``axes`` and the unit
-    ``unit`` of the score ("1": photons). ``outside`` is the score beyond the axes, ``photons`` the number traced.
+    ``sum`` and ``error``, its one-sigma standard error, have one dimension per axis of ``axes``, and the
+    ``unit`` of the score ("1": photons). ``outside`` is the score beyond the axes, ``photons`` the number
+    traced.
     """
 
     def __init__(self, entry: Dict[str, Any]) -> None:
@@ -77,7 +79,8 @@ class Tally:
         return self.error / max(self.photons, 1)
 
     def to_xarray(self) -> Any:
-        """A Dataset with ``sum`` and ``error`` over the middles of the bins, with units as attributes."""
+        """A Dataset with ``sum`` and ``error`` over the centres of the bins, with units as attributes. Raises
+        MissingPackage without xarray."""
         xarray = need("xarray", "to_xarray()")
         names: List[str] = []
         for axis in self.axes:
@@ -89,7 +92,8 @@ class Tally:
         return xarray.Dataset(data, coordinates, {"name": self.name, "type": self.type, "photons": self.photons})
 
     def plot(self, ax: Optional[Any] = None, *, log: bool = False) -> Any:
-        """Draws one axis as steps with the band of one sigma, two as an image; more are summed over the last."""
+        """Draws one axis as steps with a band of one sigma, two as an image; further axes are summed over.
+        Returns the axes."""
         ax = axes_for(ax)
         values, squares, axes = self.sum, self.error**2, self.axes
         while len(axes) > 2:

@@ -179,7 +179,7 @@ std::vector<std::string> omissions(const std::vector<NamedResult>& results,
   return found;
 }
 
-/// Warnings about what makes differences in sigma meaningless or unfair.
+/// Warnings about conditions that make differences in sigma meaningless or biased.
 std::vector<std::string> cautions(const std::vector<NamedResult>& results) {
   std::vector<std::string> found;
   std::set<std::uint64_t> seeds;

@@ -1,7 +1,7 @@
 #pragma once
 /// The self-contained HTML pages: light and dark, nothing loaded from elsewhere.
-/// Their script (pages/detail/html_document.hpp) adds to what they show without it; no other may run but
-/// those that a page is given.
+/// Their script (pages/detail/html_document.hpp) adds interaction; only it and scripts passed to a page may
+/// run.
 
 #include <filesystem>
 #include <string>

@@ -19,8 +19,8 @@
 
 namespace scintray::report {
 
-/// The page: the answer first, then events, fates, sensors, angles, paths, the scene in three dimensions,
-/// conditions and the scene file.
+/// The page: the main result first, then events, fates, sensors, angles, paths, the scene in three
+/// dimensions, conditions and the scene file.
 std::string html_report(const tally::RunResult& run, const RunAnalysis& analyses = {},
                         const RunView& view = {});
 
@@ -98,16 +98,16 @@ struct ComparedNumber {
 
 /// Quantities of all points that the first result has, in its order: shares of the photons by fate, light and
 /// photons detected per event, photopeak, resolution, depth of interaction and coincidence time resolution.
-/// Points are matched by their swept values; a single point by itself. A quantity that no two results have is
-/// left out. @throws std::invalid_argument without results
+/// Points are matched by their swept values; a single point by itself. Quantities of fewer than two results
+/// are left out. @throws std::invalid_argument without results
 std::vector<ComparedNumber> compare_results(const std::vector<NamedResult>& results);
 
-/// The comparison for a terminal: a table, the largest difference, and how often a difference is so large by
-/// chance.
+/// The comparison for a terminal: a table, the largest difference, and the probability of such a difference
+/// by chance.
 std::string comparison_text(const std::vector<NamedResult>& results);
 
 /// The comparison as JSON: the names of the results, and of each quantity of each point its values (null:
-/// none) and differences in sigma, what the figures do not include, and the cautions.
+/// none) and differences in sigma, the effects that the figures do not include, and the cautions.
 std::string comparison_json(const std::vector<NamedResult>& results);
 
 /// The comparison as a self-contained page.

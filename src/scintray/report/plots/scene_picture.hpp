@@ -1,5 +1,5 @@
 #pragma once
-/// A scene seen from three sides, as SVG.
+/// Three views of a scene, as SVG.
 
 #include <string>
 #include <vector>

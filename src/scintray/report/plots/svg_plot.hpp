@@ -42,7 +42,7 @@ struct Plot {
 /// differ or nothing is finite.
 std::string svg_plot(const Plot& plot);
 
-/// Where a plot is drawn: its area in user units, y downwards, and the data at its borders.
+/// Area of a plot in user units, y downwards, and the data at its borders.
 struct PlotFrame {
   double left = 0.0, top = 0.0, right = 0.0, bottom = 0.0;
   double x_low = 0.0, x_high = 0.0;
@@ -53,7 +53,7 @@ struct PlotFrame {
 PlotFrame plot_frame(const Plot& plot);
 
 /// The plot with its numbers for the script of pages, which adds values under the pointer, zoom, a
-/// logarithmic axis and files to save. Without the script it is the drawing alone.
+/// logarithmic axis and files to save. Without the script only the drawing is shown.
 std::string chart(const Plot& plot);
 
 /// A drawing in an area that scrolls on narrow screens, with `json` for the script of pages.
@@ -61,7 +61,7 @@ std::string chart(const Plot& plot);
 std::string chart_box(const std::string& kind, const std::string& name, const std::string& drawing,
                       const std::string& json);
 
-/// Numbers as a JSON array, to `digits` significant digits; what is not finite is null.
+/// Numbers as a JSON array, to `digits` significant digits; values that are not finite are null.
 std::string json_numbers(const std::vector<double>& numbers, int digits = 7);
 
 /// A text as a JSON string.

@@ -12,7 +12,7 @@ namespace scintray::report {
 
 /// Text escaped for HTML and SVG, attributes included.
 std::string escape_html(const std::string& text);
-/// A fate in words: "not detected", "absorbed in medium".
+/// Text of a fate: "not detected", "absorbed in medium".
 std::string fate_text(core::Fate fate);
 /// "0.3373 ± 0.0011": the error to two significant digits, the value to the same place.
 std::string with_error(const core::Estimate& estimate);

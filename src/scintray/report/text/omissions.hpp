@@ -1,5 +1,5 @@
 #pragma once
-/// What the figures of a result do not include, in words.
+/// Text on the effects that the figures of a result do not include.
 
 #include <optional>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace scintray::report {
 
-/// Figures beside which the effects stand that they do not include.
+/// Figures for which the effects that they do not include are listed.
 enum class Figure { resolution, timing, fraction };
 
 /// "energy resolution", "CTR", "detected fraction".
@@ -21,11 +21,12 @@ std::optional<std::vector<tally::OmittedEffect>> omitted_anywhere(
     const std::vector<std::optional<std::vector<tally::OmittedEffect>>>& points);
 std::optional<std::vector<tally::OmittedEffect>> omitted_anywhere(const tally::RunResult& run);
 
-/// "The energy resolution does not include: intrinsic resolution (LSO), electronic noise." Says so where
-/// everything that is modelled is included, or where the result has no record.
+/// "The energy resolution does not include: intrinsic resolution (LSO), electronic noise." States where
+/// every modelled effect is included, or where the result has no record.
 std::string omission_sentence(const std::optional<std::vector<tally::OmittedEffect>>& effects, Figure figure);
 
-/// The sentence as a paragraph of a page, with what a scene states to include the effects in a folded list.
+/// The sentence as a paragraph of a page, with the keys of a scene that include the effects in a collapsed
+/// list.
 std::string omission_note(const std::optional<std::vector<tally::OmittedEffect>>& effects, Figure figure);
 
 }  // namespace scintray::report

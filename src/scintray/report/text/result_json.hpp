@@ -14,8 +14,8 @@ namespace scintray::report {
 /// sensors, absorbed light, means of the detected photons, tallies with the sum and the error of each bin
 /// (the last axis fastest) and what follows from them (light spread, etendue), exit angles, omitted effects
 /// (null: not recorded), energies, and the analysis of its events with the names of analysis::list_fields;
-/// the claims of its scene. Numbers that are not finite are null. Text that is not UTF-8 has U+FFFD in place
-/// of what is not.
+/// the claims of its scene. Numbers that are not finite are null. Bytes that are not UTF-8 are replaced by
+/// U+FFFD.
 /// @param analyses  of the events of the points, in their order; empty for a run of photons
 std::string result_json(const tally::RunResult& run, const RunAnalysis& analyses);
 

@@ -10,7 +10,7 @@
 namespace scintray::report {
 
 /// Summary of a run as text. A sweep over a number: a table of detected fractions, rows the swept value,
-/// columns the series. Any other sweep: one line a point. One point: every fate. Ends with warnings and the
+/// columns the series. Any other sweep: one line per point. One point: every fate. Ends with warnings and the
 /// reason of a partial result.
 /// @param analyses  of the events of the points; with them the tables are of light per event
 std::string text_summary(const tally::RunResult& run, const RunAnalysis& analyses = {});

@@ -8,7 +8,7 @@
 namespace scintray::report {
 
 /// "Ended by until: relative error of detected 0.0098, goal 0.01.", or that no condition ended the point,
-/// with what was reached. Empty without [run] until.
+/// with the values reached. Empty without [run] until.
 std::string until_sentence(const tally::PointResult& point);
 
 }  // namespace scintray::report

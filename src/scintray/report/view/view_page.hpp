@@ -20,7 +20,7 @@ struct ViewFace {
   std::string name;       ///< within the part
   std::string surface;    ///< empty: smooth
   std::string sensor;     ///< empty: none
-  std::string stated_at;  ///< place of the rule that gave it the surface, "scene.toml:12"; empty: none
+  std::string stated_at;  ///< place of the rule that sets its surface, "scene.toml:12"; empty: none
 };
 
 struct ViewPart {
@@ -44,7 +44,7 @@ struct ViewGrid {
   std::vector<double> values;  ///< per bin, the second axis fastest
 };
 
-/// What a run counted on faces, as a view paints it there.
+/// Counts of a run on faces, which a view shows as colours.
 struct ViewTally {
   std::string name, unit;
   /// Per face, over the parts in their order; not a number for a face without a value. Empty with a grid.
@@ -61,7 +61,7 @@ struct SceneView {
   std::vector<ViewTally> tallies{};
 };
 
-/// What the page of a run has of its scene: a view of it, or why there is none, or (both empty) nothing.
+/// The scene of a run on its page: a view of it, or the reason why there is none, or (both empty) nothing.
 struct RunView {
   std::optional<SceneView> view;
   std::string missing;  ///< one sentence
@@ -76,7 +76,7 @@ bool can_view();
 /// The page. Parts of equal shape are stored once. @throws SystemError without three.js
 std::string view_page(const SceneView& view);
 
-/// The section of the page of a run, HTML; empty when the page has nothing of its scene.
+/// The section of the page of a run, HTML; empty without a view or a reason.
 std::string view_section(const RunView& view, const tally::RunResult& run);
 /// CSS of the section.
 std::string_view view_style();
@@ -87,10 +87,10 @@ std::vector<std::string_view> view_scripts();
 /// ...
 inline constexpr std::size_t kMostViewBins = 256;
 
-/// What a point counted on faces, per emitted photon: detected and not detected light at each sensor face;
+/// Counts of a point on faces, per emitted photon: detected and not detected light at each sensor face;
 /// tallies over an axis of faces, one for each step event with any count; tallies over two axes of position
-/// that are bound to faces. Other axes are summed over. Tallies of exit angles and grids over angles are left
-/// out.
+/// that are bound to faces. Other axes are summed over. Tallies of exit angles and grids over angles are
+/// omitted.
 /// @param specs  the tallies of the scene file, whose names are those of the results
 std::vector<ViewTally> view_tallies(const tally::RunHeader& header, const tally::PointResult& point,
                                     const std::vector<scene_file::TallySpec>& specs,

@@ -15,7 +15,7 @@ namespace {
 class GroupSink : public analysis::FieldSink {
  public:
   explicit GroupSink(core::h5::Group root) : open_{std::move(root)} {}
-  /// Gives the dimensions of the outermost group their scales.
+  /// Attaches scales to the dimensions of the outermost group.
   void finish() { name_dimensions(open_.front()); }
 
   void begin_group(const std::string& name, const std::string& description) override {

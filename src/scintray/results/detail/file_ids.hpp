@@ -8,11 +8,11 @@
 
 namespace scintray::results::format {
 
-/// What a file has in place of no id.
+/// Value in a file for an id without a value.
 inline constexpr std::uint32_t kNoIdInFile = std::numeric_limits<std::uint32_t>::max();
 
-/// What a value is in a file: an id is its index, a count or a number of 64 bits is signed, since NumPy and
-/// pandas refuse unsigned ones as indices, other values are themselves.
+/// Value as stored in a file: an id is its index, a count or number of 64 bits is signed, since NumPy and
+/// pandas refuse unsigned ones as indices, other values are unchanged.
 /// @pre a count is below 2^63
 inline std::int64_t to_file(std::uint64_t count) { return static_cast<std::int64_t>(count); }
 template <typename Value>
@@ -24,7 +24,7 @@ std::uint32_t to_file(core::Id<Tag> id) {
   return id.has_value() ? id.index() : kNoIdInFile;
 }
 
-/// The value that is `stored` in a file.
+/// Sets the value from the one `stored` in a file.
 inline void from_file(std::int64_t stored, std::uint64_t& count) {
   count = static_cast<std::uint64_t>(stored);
 }

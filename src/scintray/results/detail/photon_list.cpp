@@ -39,7 +39,7 @@ PhotonListLayout layout_of(const core::h5::Group& photons, const std::filesystem
   return layout;
 }
 
-/// A photon of which nothing is known.
+/// A photon with all fields unknown.
 tally::DetectedPhoton unknown_photon() {
   constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
   tally::DetectedPhoton photon;

@@ -23,8 +23,8 @@ struct PointNames {
 /// Writes the parameters, counts and sums of a point.
 void put_point(core::h5::Group& group, const tally::PointResult& point, const PointNames& names);
 
-/// Writes what some points have: the energy of their events, the timing of their light, and the effects that
-/// their numbers omit.
+/// Writes the optional records of a point: the energy of its events, the timing of its light, and the
+/// effects that its results omit.
 void put_point_facts(core::h5::Group& group, const tally::PointResult& point);
 
 /// Writes the group analysis of a point.
@@ -34,7 +34,7 @@ void put_event_analysis(core::h5::Group& point, const analysis::EventAnalysis& a
 /// Writes the group channels of a point.
 void put_channels(core::h5::Group& point, const std::vector<tally::ReadoutChannel>& channels);
 
-/// Texts along a dimension as its scale.
+/// Writes texts along a dimension as its dimension scale.
 void put_scale(core::h5::Group& group, const std::string& name, const std::vector<std::string>& values);
 
 /// Names of all fates in their order.

@@ -1,5 +1,5 @@
 #pragma once
-/// What some results files have: records of a point; the tables of photon paths, /paths, /path_steps and
+/// Optional content of results files: records of a point; the tables of photon paths, /paths, /path_steps and
 /// /step_texts.
 
 #include <map>
@@ -20,7 +20,7 @@ tally::UntilResult get_until(const core::h5::Group& point);
 tally::EventFates get_event_fates(const core::h5::Group& point);
 
 /// Sums over events of photons at `size` places, "NAME_event_squares" and "NAME_event_products"; empty in
-/// files without them. @throws std::invalid_argument when their number is another
+/// files without them. @throws std::invalid_argument when their number is not `size`
 std::vector<tally::EventShare> get_event_shares(const core::h5::Group& point, const std::string& name,
                                                 std::size_t size);
 
@@ -30,7 +30,7 @@ class PathTables {
   /// Creates the groups.
   explicit PathTables(core::h5::Group& root);
   void add(std::size_t point, const std::vector<tally::PhotonPath>& paths);
-  /// Writes what waits, and the texts of all steps.
+  /// Writes the buffered rows, and the texts of all steps.
   void finish();
 
  private:

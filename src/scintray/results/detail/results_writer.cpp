@@ -25,7 +25,7 @@ using format::fate_names;
 using format::name_dimensions;
 using format::put_scale;
 
-/// One row a point: what was swept, and the fates.
+/// One row per point: the swept values, and the fates.
 void put_sweep(core::h5::Group& root, const std::vector<std::string>& keys,
                const std::vector<tally::PointResult>& points) {
   core::h5::Group group = root.create_group("sweep");
@@ -114,7 +114,7 @@ struct ResultsWriter::State {
   format::RowWriter<tally::DetectedPhoton> photons;
   format::RowWriter<format::EventRow> events;
   format::RowWriter<format::SignalRow> signals;
-  format::SampleWriter orders, pulses;  ///< a row a signal
+  format::SampleWriter orders, pulses;  ///< one row per signal
   std::optional<format::PathTables> paths{};
   std::optional<HistoryWriter> histories;
   std::map<std::size_t, std::vector<tally::ReadoutChannel>> channels;  ///< per point, until it is written

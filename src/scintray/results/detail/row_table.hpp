@@ -145,7 +145,7 @@ class SampleWriter {
 
 /// At most `count` rows from `offset` on, with the columns that `is_wanted` accepts. Empty (nullopt) when the
 /// columns differ in length.
-/// @param absent  a row as it is without any column
+/// @param absent  values of the columns that are not read
 template <typename Row, typename IsWanted>
 std::optional<std::vector<Row>> read_rows(const core::h5::Group& group, std::uint64_t offset,
                                           std::uint64_t count, const Row& absent, const IsWanted& is_wanted) {

@@ -30,7 +30,7 @@ double trim_distance(const PartTrim& trim, const core::Vec3& point) {
   return trim.surface ? trim.surface->distance(point) : trim.plane.normal.dot(point) - trim.plane.offset;
 }
 
-/// The n-th point of a sequence that fills the unit cube evenly: multiples of powers of the root of
+/// The n-th point of a low-discrepancy sequence in the unit cube: multiples of powers of the root of
 /// x^4 = x + 1 (M. Roberts 2018, a generalisation of the golden ratio).
 core::Vec3 even_point(int n) {
   constexpr double kRoot = 1.22074408460575947536;

@@ -15,7 +15,7 @@ namespace scintray::scene_file {
 struct SeptaSpec {
   SheetSpec sheet;
   double thickness_mm = 0.0;
-  bool x = true, y = true;                         ///< between columns (across x), between rows (across y)
+  bool x = true, y = true;  ///< between columns (normal to x), between rows (normal to y)
   std::optional<std::array<double, 2>> height_mm;  ///< above the elements' bottom; nothing: the full height
   core::FileLocation where;
 };

@@ -13,7 +13,7 @@ double read_unit(const config::TomlTable& table, const std::string& key, core::D
 
 /// The key `group` beside a file of columns; reports a file of another format, and a group of one without
 /// groups.
-/// @param rows  what the rows are: "hits"
+/// @param rows  kind of the rows: "hits"
 std::string read_column_group(const config::TomlTable& table, const std::filesystem::path& file,
                               const std::string& rows);
 

@@ -16,7 +16,7 @@ namespace scintray::scene_file {
 struct SheetSpec {
   config::NameRef medium;                  ///< kOpaqueMedium unless given
   config::NameRef surface;                 ///< of every side of every sheet; empty: smooth
-  ContactKind contact = ContactKind::dry;  ///< with all that they touch, apart from fillers and glue
+  ContactKind contact = ContactKind::dry;  ///< with touching parts other than fillers and glue
   core::FileLocation where;
 };
 
@@ -29,20 +29,20 @@ struct Interval {
   double low = 0.0, high = 0.0;
 };
 
-/// Positions of sheets at one height, across x and across y, and the extent of the grid.
+/// Positions of sheets at one height, normal to x and normal to y, and the extent of the grid.
 struct SheetGrid {
   std::array<std::vector<Interval>, 2> sheets;  ///< in order; of an axis without sheets empty
   std::array<Interval, 2> whole;
 };
 
-/// One sheet, or one piece of it between two sheets across the other axis.
+/// One sheet, or one piece of it between two sheets normal to the other axis.
 struct SheetPiece {
   std::string index;  ///< "x[0]", "y[2]", or "x[0,1]" for piece 1 of sheet 0
   mesh::Rectangle bottom, top;
 };
 
-/// The pieces between two heights. Sheets across y are whole; those across x are cut by them. Both grids
-/// have the same numbers of sheets.
+/// The pieces between two heights. Sheets normal to y are continuous; those normal to x are divided by them.
+/// Both grids have the same numbers of sheets.
 std::vector<SheetPiece> sheet_pieces(const SheetGrid& bottom, const SheetGrid& top);
 
 /// A sheet's part named `name`, standing on `z_mm`.

@@ -12,9 +12,9 @@ namespace scintray::scene_file {
 /// groups are known when it is read.
 std::vector<std::string> side_names(const ShapeSpec& shape);
 
-/// Adds to the parts the faces that tallies and contacts name and no rule makes: each a rule without a place
-/// in the file, without surface and sensor, for the group of that name. Such a rule takes triangles that no
-/// other one matches, and is no face where there are none.
+/// Adds to the parts the faces that tallies and contacts name and that no rule defines: each a rule without a
+/// place in the file, without surface and sensor, for the group of that name. Such a rule applies to
+/// triangles that no other one matches, and makes no face where there are none.
 void name_sides(SceneSpec& scene);
 
 }  // namespace scintray::scene_file

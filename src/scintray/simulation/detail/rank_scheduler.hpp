@@ -85,12 +85,12 @@ class RankScheduler {
 
   Ranks& ranks_;
   const RunOutline& run_;
-  std::deque<Work> work_;          ///< not yet handed out
+  std::deque<Work> work_;          ///< not yet assigned
   std::uint64_t blocks_left_ = 0;  ///< in work_
   TracerOf tracer_of_;
   std::function<std::uint64_t(std::uint64_t)> next_division_;
   std::vector<Rank> states_;
-  std::deque<Job> jobs_;  ///< handed out and not yet passed on
+  std::deque<Job> jobs_;  ///< assigned, and results not yet passed on
   std::uint64_t next_number_ = 0;
   std::size_t bytes_waiting_ = 0;  ///< of results that wait for others before them
   double pass_seconds_ = 0.0;      ///< that it took to pass the latest result on

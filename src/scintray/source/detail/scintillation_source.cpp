@@ -209,7 +209,7 @@ Photon ScintillationSource::emit(const scene::Scene& scene, const EventLight& li
   if (prompt && deposit.step) {
     emit_cherenkov(deposit, medium, photon, rng);
   } else {
-    // A charged particle emits evenly along its step, a neutral one deposits at its end.
+    // A charged particle emits uniformly along its step, a neutral one deposits at its end.
     const double along = !deposit.step ? 0.0 : deposit.step->charge == 0.0 ? 1.0 : rng.uniform();
     photon.position = deposit.position;
     if (deposit.step) photon.position = deposit.position + along * deposit.step->displacement;

@@ -18,7 +18,7 @@ std::uint64_t count_missing(const HeightMap& map);
 /// InputError when the limit is not at least 1, the radius not in [1, 50], or no point has a height.
 std::uint64_t remove_outliers(HeightMap& map, double limit, int radius = 2);
 
-/// Fills every missing point with the height of a membrane spanned over the gap: the solution of Laplace's
+/// Fills every missing point with the height of a membrane stretched over the gap: the solution of Laplace's
 /// equation with the points around as boundary, free at the edges of the map (wrapped around on a
 /// periodic one), by the five-point formula (Press et al. 2007, Numerical Recipes 3rd ed., section
 /// 3.8) and a sparse Cholesky factorization. No filled height exceeds the heights around its gap.

@@ -13,7 +13,7 @@ namespace {
 
 /// A lobe of Henyey and Greenstein about the direction of the ray. The cosine is the inverse of the
 /// cumulative distribution of their phase function (equation of docs/surfaces.md). A polarised ray keeps the
-/// part of its polarisation across the new direction.
+/// component of its polarisation perpendicular to the new direction.
 void scatter_henyey_greenstein(optics::Ray& ray, double g, bool forward, core::Rng& rng) {
   const double u = rng.uniform();
   const double ratio = (1.0 - g * g) / (1.0 - g + 2.0 * g * u);

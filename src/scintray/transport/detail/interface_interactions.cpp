@@ -94,7 +94,7 @@ InterfaceOutcome interact_at_interface(const InterfaceApproach& at, source::Phot
     if (outcome == optics::SurfaceOutcome::absorbed) return {false, id};
     if (outcome == optics::SurfaceOutcome::inside) return {!at_back, core::SurfaceId::none()};
     if (!index.dry) return {at_back, core::SurfaceId::none()};
-    came_from_back = at_back;  // in the gap, on the way from this surface to the other
+    came_from_back = at_back;  // in the gap, between this surface and the other
     at_back = !at_back;
   }
 }

@@ -9,7 +9,7 @@ namespace scintray::transport {
 /// Time of light along a unit of path in vacuum, ns/mm: the inverse of core::kSpeedOfLight_mm_per_ns.
 inline constexpr double kTimePerLength_ns_per_mm = 1.0 / 299.792458;
 
-/// Time (ns) of light along a path, which it takes at the group velocity.
+/// Time of flight (ns) along a path, at the group velocity.
 template <typename Real>
 Real time_along(const Real& distance_mm, const Real& group_index) {
   return distance_mm * group_index * Real(kTimePerLength_ns_per_mm);

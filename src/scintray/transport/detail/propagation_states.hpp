@@ -76,8 +76,8 @@ class StoredPropagation {
 };
 
 /// A photon in a region with exact round faces. At each face its position is moved onto the face, and the
-/// face that it is reflected at is known in the next ray query, so that rounding does not add up however flat
-/// and long the reflections go round a wall.
+/// face of reflection is known in the next ray query, so that rounding errors do not accumulate over grazing
+/// reflections around a wall.
 class CurvedPropagation {
  public:
   CurvedPropagation(const scene::Scene& scene, const scene::Region& region, source::Photon& photon)

@@ -1,6 +1,6 @@
 #pragma once
-/// The parts of a step: propagation to its end, and the event there, with what a photon may undergo in the
-/// bulk of a medium and at an interface.
+/// The parts of a step: propagation to its end, and the event there, in the bulk of a medium or at an
+/// interface.
 
 #include "scintray/transport/step.hpp"
 
@@ -40,7 +40,7 @@ struct BoundaryPlace {
   std::uint32_t triangle = scene::kNoTriangle;  ///< of the region's boundary
   double cos_before = 0.0;                      ///< as of Step
 };
-/// The step of a photon that its surface let through: into the next region, or its sensor. The photon's
+/// The step of a photon transmitted by the surface: into the next region, or its sensor. The photon's
 /// direction is that after the interaction, its region still the old one.
 Step cross_boundary(const scene::Scene& scene, const BoundaryPlace& at, source::Photon& photon);
 /// The step of a photon absorbed by a surface.
@@ -70,7 +70,7 @@ struct InterfaceIndex {
 };
 
 /// The birefringent media on the two sides of an interface; null: of one index. Light enters an opaque region
-/// as if the medium it comes from went on.
+/// as if the medium of incidence continued there.
 struct BirefringentSides {
   const optics::BirefringentOptics* back = nullptr;
   const optics::BirefringentOptics* front = nullptr;

@@ -1,6 +1,6 @@
 #pragma once
-/// Photons in lanes in regions that have rough faces or reflectors, and those regions in the form in which
-/// the lanes see them.
+/// Photons in lanes in regions that have rough faces or reflectors, and the data of those regions for the
+/// lanes.
 
 #include <array>
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace scintray::transport {
 
-/// Planes and faces of the regions that photons enter, made when the first one does. Faces depend on the
+/// Planes and faces of the regions that photons enter, made when the first photon does. Faces depend on the
 /// wavelength: those of a region's first photon serve all others of its wavelength; photons of other
 /// wavelengths have faces of their own.
 class LaneScene {
@@ -55,8 +55,8 @@ class LaneScene {
   std::vector<Faces> own_;                       ///< by photon
 };
 
-/// The photons of the pool of lane_pool.hpp: those in regions for surface lanes, until something happens to
-/// them that is done for each alone.
+/// The photons of the pool of lane_pool.hpp: those in regions for surface lanes, until an event that is
+/// treated for each photon separately.
 class SurfaceLanes {
  public:
   /// @param kernel  of lane_pool.hpp, or null: no photon is entered
@@ -64,8 +64,8 @@ class SurfaceLanes {
 
   bool has_room() const { return !free_.empty(); }
   bool empty() const { return free_.size() == LanePool::kPhotons; }
-  /// Takes a photon in, where there is room.
-  /// @param name  of the photon, by which it is found again
+  /// Adds a photon. @pre has_room()
+  /// @param name  of the photon, returned in Left::name
   void enter(std::uint32_t name, const source::Photon& photon, const core::Rng& rng);
 
   /// A photon that left the lanes.
@@ -74,9 +74,9 @@ class SurfaceLanes {
     double waiting_as = 0.0;  ///< lane_state
   };
   /// Moves the photons until some leave. Their slots remain taken until finish().
-  /// @return those; valid until the next call
+  /// @return the photons that left; valid until the next call
   const std::vector<Left>& run();
-  /// Sets photon and stream to where the photon left the lanes, and takes the rest of its step.
+  /// Sets photon and stream to the state at which the photon left the lanes, and completes its step.
   /// @return the step, with the segments in the lanes too
   Step finish(const Left& left, source::Photon& photon, core::Rng& rng);
 

@@ -53,7 +53,7 @@ double root_mean_square(const MeasuredCurve& measured) {
   return std::sqrt(sum / static_cast<double>(measured.points.size()));
 }
 
-/// Makes a mean of `count` independent curves one of `count + 1`.
+/// Updates a mean of `count` independent curves to one of `count + 1`.
 void add_to_mean(ModelCurve& mean, const ModelCurve& other, std::uint64_t count) {
   const auto n = static_cast<double>(count);
   for (std::size_t i = 0; i < mean.size(); ++i) {

@@ -11,7 +11,7 @@
 
 namespace scintray::analysis {
 
-/// Distance from a bound, as a share of the range, within which a parameter is at the bound.
+/// Distance from a bound, as a share of the range, within which a parameter counts as at the bound (chosen).
 inline constexpr double kAtBound = 1e-3;
 
 class FitSearch {

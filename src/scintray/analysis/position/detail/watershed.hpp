@@ -18,6 +18,7 @@ struct Basins {
   std::map<std::pair<std::uint32_t, std::uint32_t>, double> saddles;
 };
 
+/// Basins of a map by watershed with removal of insignificant peaks (sources: flood_map.hpp).
 /// @param height  rows x columns; only cells above `floor` belong to a basin
 /// @param error_scale  a peak of height h is kept when it is more than 5 error_scale sqrt(h) above the saddle
 ///                  to a higher one

@@ -10,23 +10,23 @@
 
 namespace scintray::analysis {
 
-/// How often a sample is divided, and into how many groups.
+/// Number of divisions of a sample, and of groups in each.
 struct Divisions {
   std::size_t number = 1, groups = 32;
 };
 
-/// The finite ones of a list in rising order, each with its place in the list.
+/// The finite values of a list in rising order, each with its place in the list.
 class GroupedValues {
  public:
   explicit GroupedValues(std::span<const double> values);
 
   /// All values, rising.
   const std::vector<double>& sorted() const { return sorted_; }
-  /// Leaves out the values outside of two.
+  /// Leaves out the values outside [low, high].
   void keep_between(double low, double high);
-  /// Random divisions of the places, not of the ranks, into groups of one size, give or take one: those of
-  /// ranks would be the same in all lists of one length, and so would what they are off by. @returns  for
-  /// each division the group of each of sorted()
+  /// Random divisions of the places, not of the ranks, into groups of equal size within one: divisions of
+  /// ranks would be the same in all lists of one length, and so would their deviations.
+  /// @return for each division the group of each of sorted()
   std::vector<std::vector<unsigned char>> divided(const Divisions& divisions) const;
 
  private:
@@ -34,12 +34,12 @@ class GroupedValues {
   std::vector<std::size_t> place_;
 };
 
-/// Standard errors of what `statistics` makes of rising values, from its results without one of the groups
-/// each (core::jackknife_error), the mean square of several divisions; the calls are parallel. Few, large
-/// groups suit what depends on the values in steps, as fits whose ranges are found from them: steps of one
-/// part in a hundred of the error, which G groups enlarge by the root of G - 1. Nothing where a call returns
-/// nothing, or there are fewer than four values a group.
-/// @param statistics  of values without a group: as many numbers each time, or nothing
+/// Standard errors of the results of `statistics`, from those without each of the groups
+/// (core::jackknife_error), as the root mean square over the divisions; the calls are parallel. Few, large
+/// groups suit statistics that depend on the values in steps, such as fits whose ranges are determined from
+/// them: G groups enlarge steps by the square root of G - 1. Nothing where a call returns nothing, or there
+/// are fewer than four values per group.
+/// @param statistics  of rising values without a group: the same number of results each time, or nothing
 std::optional<std::vector<double>> jackknife_errors(
     const GroupedValues& values, const Divisions& divisions,
     const std::function<std::optional<std::vector<double>>(std::span<const double>)>& statistics);

@@ -16,7 +16,7 @@ struct CellLines {
   std::size_t cell_step = 1;  ///< between two cells of a line
 };
 
-/// Every line convolved with the kernel (an odd number of weights); beyond its ends are zeros.
+/// Every line convolved with the kernel (an odd number of weights), with zeros beyond its ends.
 std::vector<double> convolved(const std::vector<double>& map, const std::vector<double>& kernel,
                               const CellLines& lines);
 

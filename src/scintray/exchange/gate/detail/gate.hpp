@@ -26,8 +26,8 @@ struct Command {
 
 /// The commands of a macro and of those that it executes, aliases replaced, comments left out.
 /// @param folder working folder of GATE, where `/control/execute` looks for files, or the folder above it
-/// Commands of /control that are not followed (loops, conditions) are in the list as they are.
-/// @throws InputError for a file that cannot be read, macros that execute each other without end, and an
+/// Commands of /control that are not executed (loops, conditions) are in the list unchanged.
+/// @throws InputError for a file that cannot be read, macros that execute each other endlessly, and an
 /// alias that is not defined.
 std::vector<Command> read_macro(const std::filesystem::path& macro);
 
@@ -36,8 +36,8 @@ std::vector<Command> read_macro(const std::filesystem::path& macro);
 std::filesystem::path find_file(const std::filesystem::path& macro_folder, const std::string& name,
                                 const core::FileLocation& where);
 
-/// Where a volume lies in its mother: the matrix that GATE hands to G4PVPlacement, which turns the mother's
-/// axes into the volume's, and the position in mm.
+/// Placement of a volume in its mother: the matrix that GATE passes to G4PVPlacement, which rotates the
+/// mother's axes into the volume's, and the position in mm.
 struct Placement {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
   core::Vec3 position_mm = core::Vec3::Zero();
@@ -69,7 +69,7 @@ struct Volume {
   bool sensitive = false;
 };
 
-/// What the commands of a macro describe.
+/// The detector described by the commands of a macro.
 struct Detector {
   std::vector<Volume> volumes;  ///< the world first, mothers before their daughters
   std::filesystem::path folder;
@@ -80,7 +80,7 @@ struct Detector {
   const Volume* find(const std::string& name) const;
 };
 
-/// Reads a macro; what is wrong with its commands is in the result, so that all problems are reported at
+/// Reads a macro; problems of its commands are in the result, so that all are reported at
 /// once.
 /// @throws InputError as read_macro
 Detector read_detector(const std::filesystem::path& macro);
@@ -99,9 +99,9 @@ class GdmlDocument {
  public:
   GdmlDocument();
   pugi::xml_node section(const char* name) { return root_.child(name); }
-  /// An element with its place.
+  /// Adds an element with its place.
   static pugi::xml_node add(pugi::xml_node parent, const char* tag, const core::FileLocation& where);
-  /// A matrix of a name of its own, for a property.
+  /// Adds a matrix for a property. @return its unique name
   std::string add_matrix(int columns, const std::string& values, const core::FileLocation& where);
   std::string text() const;
 

@@ -71,7 +71,7 @@ class MacroReader {
   }
 
   std::string with_aliases(std::string line, const core::FileLocation& where) const {
-    // Aliases may stand in aliases; the innermost braces come first.
+    // Aliases may be nested; the innermost braces come first.
     constexpr int kMostReplaced = 1000;
     for (int replaced = 0; replaced < kMostReplaced; ++replaced) {
       const std::size_t close = line.find('}');

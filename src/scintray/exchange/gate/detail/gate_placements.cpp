@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kMostCopies = 200'000;
 
-/// Matrix of a turn about an axis of any length; none about an axis of no length.
+/// Matrix of a rotation about an axis of any length; the identity for an axis of length zero.
 Eigen::Matrix3d turn(double angle_rad, const core::Vec3& axis) {
   if (!(axis.norm() > 0.0)) return Eigen::Matrix3d::Identity();
   return Eigen::AngleAxisd(angle_rad, axis.normalized()).toRotationMatrix();

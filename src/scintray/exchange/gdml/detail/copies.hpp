@@ -15,7 +15,7 @@ struct VolumeCopy {
   std::string solid{};                                      ///< of this copy; empty: that of its volume
 };
 
-/// Copies of a volume, and how they differ from what the file seems to state.
+/// Copies of a volume, and notes where Geant4 reads them differently from their apparent meaning.
 struct VolumeCopies {
   std::vector<VolumeCopy> copies;
   std::vector<std::string> notes{};
@@ -27,14 +27,14 @@ class CopyReader {
   CopyReader(const GdmlFile& file, const Definitions& definitions, Solids& solids)
       : file_(file), definitions_(definitions), solids_(solids) {}
 
-  /// Copies of <replicavol>, as G4PVReplica has them: side by side along x, y or z, centred in the mother,
+  /// Copies of <replicavol>, as of G4PVReplica: side by side along x, y or z, centred in the mother,
   /// whose number * width is its extent; about z, the middle of copy n at offset + (n + 1/2) width; along
   /// rho, tubes of the mother's length between the radii offset + n width and offset + (n + 1) width.
   /// @param mother  the <volume> in which they are
   VolumeCopies replicas(Node replica, Node mother) const;
 
-  /// Copies of <divisionvol>, as G4PVDivision has them, from the offset on, by number, width or both, with
-  /// the dimensions that it gives them whatever their own solid has: boxes and parallelepipeds along x, y and
+  /// Copies of <divisionvol>, as of G4PVDivision, from the offset on, by number, width or both, with the
+  /// dimensions of the division whatever those of their own solid: boxes and parallelepipeds along x, y and
   /// z, trapezoids (trd) along x, y and z, tubes and cones along rho, phi and z, polycones along rho and phi,
   /// polyhedra along rho and by their sides along phi.
   VolumeCopies divisions(Node division, Node mother) const;

@@ -59,7 +59,7 @@ class Definitions {
   /// Calls `action` for the children of a node, those in <loop>s once for every value of the loop's variable.
   void for_each_child(Node parent, const std::function<void(Node)>& action) const;
 
-  /// What differs from what the file seems to state, as Geant4 reads it.
+  /// Entries that Geant4 reads differently from their apparent meaning.
   const std::vector<std::string>& notes() const { return notes_; }
 
   const LoopVariables& loop_variables() const;

@@ -1,5 +1,5 @@
 #pragma once
-/// Parts of a GDML document that is written: matrices, materials, optical surfaces.
+/// Parts of a written GDML document: matrices, materials, optical surfaces.
 
 #include <map>
 #include <pugixml.hpp>
@@ -18,8 +18,8 @@ struct WavelengthRange {
   double low_nm = 0.0, high_nm = 0.0;
 };
 
-/// A GDML document in the making. Properties are tabulated at photon energies so near to each other that
-/// Geant4's interpolation, linear in energy, follows curves that are linear in wavelength.
+/// A GDML document under construction. Properties are tabulated at photon energies spaced so closely that
+/// Geant4's interpolation, linear in energy, agrees with curves that are linear in wavelength.
 class GdmlWriter {
  public:
   /// @throws InternalError for a range whose ends are not above 0
@@ -45,7 +45,7 @@ class GdmlWriter {
   /// The <opticalsurface> of a body that absorbs all light, and detects the share of the sensor's efficiency.
   std::string absorbing_surface(const detector::Sensor& sensor);
 
-  /// What cannot be written, with its effect; each once.
+  /// Adds a note on a property that cannot be written, with its effect; equal notes once.
   void note(const std::string& text);
   const std::vector<std::string>& notes() const { return notes_; }
 

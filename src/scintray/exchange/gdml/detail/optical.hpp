@@ -41,10 +41,10 @@ double value_at(const EnergyTable& table, double energy_eV);
 
 /// The properties of materials and surfaces, read as Geant4 11.4 reads them (G4GDMLReadMaterials,
 /// G4GDMLReadSolids, G4MaterialPropertiesTable): a matrix of one column is a number, one of more columns a
-/// table whose energies may come in any order; a property without a `ref` is passed over.
+/// table whose energies may come in any order; a property without a `ref` is ignored.
 class OpticalTables {
  public:
-  /// Finds the wavelengths that all tables of the file span together.
+  /// Determines the wavelengths spanned by all tables of the file together.
   OpticalTables(const GdmlFile& file, const Definitions& definitions);
 
   /// A table; empty when the owner has none of this name. Throws InputError for a `ref` without its matrix
@@ -69,11 +69,11 @@ class OpticalTables {
   double low_nm_ = 0.0, high_nm_ = 0.0;
 };
 
-/// What materials consist of: the isotopes, elements and materials of a file by name.
+/// Compositions of materials: the isotopes, elements and materials of a file by name.
 class Substances {
  public:
   Substances(const GdmlFile& file, const Definitions& definitions);
-  /// Shares of the mass by element, as "Lu = 0.714467891, O = ..."; empty when something is not stated.
+  /// Shares of the mass by element, as "Lu = 0.714467891, O = ..."; empty when a part of it is not stated.
   std::string mass_fractions(Node material) const;
 
  private:
@@ -95,7 +95,7 @@ struct ImportedMedium {
   std::string toml;                ///< the keys of [media.NAME], without the header; empty when opaque
   bool opaque = false;             ///< no RINDEX: Geant4 stops light that enters it
   bool scintillates = false;       ///< has yield, emission and decay times
-  std::vector<std::string> notes;  ///< what was not carried over
+  std::vector<std::string> notes;  ///< what was not converted
 };
 
 /// Every <material>, in file order; of several of one name the first, as in Geant4. Tables over energy become
@@ -121,10 +121,10 @@ std::string curve_toml(const EnergyTable& table, const std::string& unit, double
 std::string particle_light(const OpticalTables& tables, Node material);
 
 struct ImportedSurface {
-  std::string toml;        ///< the keys of [surfaces.NAME]; empty when it cannot be carried over
+  std::string toml;        ///< the keys of [surfaces.NAME]; empty when it cannot be converted
   std::string gap_index;   ///< of a gap with dispersion, the medium gap_name(surface); else empty
   std::string efficiency;  ///< EFFICIENCY above 0, as TOML: share of the absorbed light that is detected
-  std::vector<std::string> notes;  ///< what was not carried over, and why
+  std::vector<std::string> notes;  ///< what was not converted, and why
 };
 
 /// Name of the medium of a surface's gap.
@@ -133,7 +133,7 @@ inline std::string gap_name(const std::string& surface) { return "gap of " + sur
 /// An <opticalsurface>, in words or in Geant4's numbers: models glisur and unified, types
 /// dielectric_dielectric, dielectric_metal and coated, the six finishes polished to groundbackpainted; types
 /// dielectric_LUT and dielectric_LUTDAVIS with the finishes of their tables, which the scene names. Dichroic
-/// tables are not in the file and cannot be carried over.
+/// tables are not in the file and cannot be converted.
 ImportedSurface import_surface(Node surface, const OpticalTables& tables);
 
 }  // namespace scintray::exchange::gdml

@@ -38,8 +38,8 @@ struct Components {
   }
 };
 
-/// Shares of the components in the light of a particle: of two, Geant4 gives the second what the first
-/// leaves.
+/// Shares of the components in the light of a particle: of two, the second has in Geant4 the remainder of
+/// the first.
 std::array<double, kComponents> shares_of(const OpticalTables& tables, Node material,
                                           const std::string& yield, std::size_t count) {
   std::array<double, kComponents> shares{};

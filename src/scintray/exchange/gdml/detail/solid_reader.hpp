@@ -61,8 +61,8 @@ class SolidReader {
 
 /// The shape of a scene file that has the faces of a solid exactly, in its frame, as a line of a [[part]]: of
 /// a full torus, an uncut or cut ellipsoid of revolution, a paraboloid and a full hyperboloid, whose faces
-/// are not recognized in triangles; empty for other solids. The dimensions are possible: its mesh could be
-/// made.
+/// are not recognized in triangles; empty for other solids.
+/// @pre the dimensions are valid: its mesh could be made
 std::optional<std::string> exact_shape(Node solid, const Definitions& definitions,
                                        const mesh::Tessellation& tessellation);
 

@@ -16,12 +16,12 @@ namespace scintray::exchange::gdml {
 
 /// Solids by name. Each is built once, on request.
 ///
-/// All that G4GDMLReadSolids of Geant4 11.4 reads are made: box, tube, cutTube, cone, trd, trap, para, arb8,
-/// tet, tessellated, xtru, polycone, genericPolycone, polyhedra, genericPolyhedra, sphere, orb, torus,
-/// ellipsoid, eltube, elcone, paraboloid, hype, twistedbox, twistedtrd, twistedtrap, twistedtubs, and union,
-/// subtraction, intersection, multiUnion, reflectedSolid and scaledSolid of these. Curved walls have their
-/// corners on the true surface and the segments that the tessellation requires, in steps of factors of two,
-/// so that bodies that touch along a cylinder mostly get the same.
+/// All solids that G4GDMLReadSolids of Geant4 11.4 reads are supported: box, tube, cutTube, cone, trd, trap,
+/// para, arb8, tet, tessellated, xtru, polycone, genericPolycone, polyhedra, genericPolyhedra, sphere, orb,
+/// torus, ellipsoid, eltube, elcone, paraboloid, hype, twistedbox, twistedtrd, twistedtrap, twistedtubs, and
+/// union, subtraction, intersection, multiUnion, reflectedSolid and scaledSolid of these. Curved walls have
+/// their corners on the true surface and the segments that the tessellation requires, in steps of factors of
+/// two, so that bodies that touch along a cylinder mostly have the same.
 class Solids {
  public:
   /// Throws InputError when two solids have one name.
@@ -32,7 +32,7 @@ class Solids {
   const mesh::TriMesh& mesh(const std::string& name, Node where);
 
   /// Whether the mesh of a solid has spheres, cylinders or cones that can be recognized in it. Solids whose
-  /// flat sides are meant, polyhedra and the like, and booleans with one of these are not searched.
+  /// flat sides are intended, polyhedra and the like, and booleans with one of these are not searched.
   bool is_round(const std::string& name, Node where);
 
   /// The line of a [[part]] with a shape of scene files that is a solid exactly, where its faces would not be

@@ -65,9 +65,9 @@ class WarningCapture {
   bool ours_ = false;
 };
 
-/// The bytes of one file, and no other file: what a mesh file names beside it, such as the material library
-/// of an OBJ, may be a pipe or anything else of the user's. Only names of materials are read, which stand in
-/// the file.
+/// The bytes of one file, and no other file: files that a mesh file refers to, such as the material library
+/// of an OBJ, may be a pipe or any other file of the user's. Only names of materials are read, which are in
+/// the file itself.
 class OneFile : public Assimp::IOSystem {
  public:
   explicit OneFile(const MeshFile& file) : path_(file.path.string()), content_(file.content) {}

@@ -11,7 +11,7 @@
 
 namespace scintray::mesh {
 
-/// Every function throws InputError naming the file for content that is not what it reads.
+/// A COLLADA file. Every function throws InputError naming the file for content of another form.
 class ColladaDocument {
  public:
   using Node = pugi::xml_node;
@@ -25,7 +25,7 @@ class ColladaDocument {
   /// The element that "#id" in an attribute names.
   Node referred(Node node, const char* attribute) const;
 
-  /// NaN when the text is not one number, between blanks and with either sign.
+  /// Value of a text; NaN unless it is one number with or without sign, between blanks.
   static double one_number(std::string_view text);
   std::vector<double> numbers(Node node) const;
   std::vector<std::size_t> indices(Node node) const;

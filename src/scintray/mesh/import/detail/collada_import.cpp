@@ -141,7 +141,7 @@ class ColladaReader {
     if (symbol.empty()) return {};
     for (const Node bound : instance.child("bind_material").child("technique_common").children())
       if (symbol == bound.attribute("symbol").value() && bound.attribute("target")) {
-        // Materials may stand in another file, which is not read: their name is all that counts here.
+        // Materials may be in another file, which is not read: only their name is needed here.
         const std::string target = bound.attribute("target").value();
         const std::string id = target.substr(target.find('#') + 1);
         const Node found = file_.element(id);

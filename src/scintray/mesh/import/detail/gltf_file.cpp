@@ -12,7 +12,7 @@
 namespace scintray::mesh {
 namespace {
 
-/// The JSON text: a .glb file's first chunk, whose length stands at byte 12 (section 4.4).
+/// The JSON text: a .glb file's first chunk, whose length is at byte 12 (section 4.4).
 std::string json_part(const std::string& content, bool binary) {
   constexpr std::size_t kHeader = 20;  // magic, version, length; chunk length, chunk type
   if (!binary) return content;
@@ -30,8 +30,8 @@ std::string little_endian(std::size_t value) {
   return bytes;
 }
 
-/// The file without its pictures, which say nothing of the geometry; one that is missing, or a pipe, would
-/// refuse the file or hang. Content that is not JSON stays as it is.
+/// The file without its images, which do not concern the geometry: a missing one would be an error, a pipe
+/// would block. Content that is not JSON is unchanged.
 std::string without_pictures(const std::string& content, bool binary) {
   const std::string json = json_part(content, binary);
   if (json.find("\"images\"") == std::string::npos) return content;
@@ -55,7 +55,7 @@ struct BufferFiles {
 
   tinygltf::FsCallbacks callbacks() {
     tinygltf::FsCallbacks calls{};
-    calls.FileExists = [](const std::string&, void*) { return true; };  // whether it does, reading finds out
+    calls.FileExists = [](const std::string&, void*) { return true; };  // reading reports a missing file
     calls.ExpandFilePath = [](const std::string& name, void*) { return name; };
     calls.ReadWholeFile = [](std::vector<unsigned char>* bytes, std::string* error, const std::string& name,
                              void* self) {
@@ -98,7 +98,7 @@ tinygltf::Model load_gltf(const std::filesystem::path& path, const std::string& 
   BufferFiles buffers{path, {}};
   tinygltf::TinyGLTF loader;
   loader.SetFsCallbacks(buffers.callbacks());
-  loader.SetImageLoader([](auto...) { return true; }, nullptr);  // pictures are accepted unread
+  loader.SetImageLoader([](auto...) { return true; }, nullptr);  // images are accepted unread
   tinygltf::Model model;
   std::string error, warning;
   bool good = false;

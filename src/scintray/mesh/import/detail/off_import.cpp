@@ -69,7 +69,7 @@ class OffReader {
     return true;
   }
 
-  /// The keyword, after which the numbers of vertices, faces and edges may stand on the same line.
+  /// The keyword, after which the numbers of vertices, faces and edges may be on the same line.
   void read_header() {
     if (!next_line()) reject("the OFF file is empty");
     for (const char* prefix : {"ST", "C", "N"})

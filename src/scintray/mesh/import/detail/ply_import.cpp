@@ -66,7 +66,7 @@ class HeaderReader {
 
  private:
   using Reader = void (HeaderReader::*)(std::istringstream& words);
-  static const core::Word<Reader> kKeywords[5];  ///< and what reads the line that each begins
+  static const core::Word<Reader> kKeywords[5];  ///< with the readers of the lines that they begin
 
   [[noreturn]] void reject(const std::string& what) const {
     throw core::InputError(
@@ -232,7 +232,7 @@ class PlyReader {
 
  private:
   using Reader = void (PlyReader::*)(const PlyElement& element);
-  static const core::Word<Reader> kElements[2];  ///< and what reads them; others are skipped
+  static const core::Word<Reader> kElements[2];  ///< with their readers; others are skipped
 
   [[noreturn]] void reject_member(const PlyElement& element, std::uint64_t member,
                                   const std::string& what) const {
@@ -305,7 +305,7 @@ class PlyReader {
     }
   }
 
-  /// Only now, because faces may stand before the vertices they refer to.
+  /// Called at the end, as faces may precede the vertices they refer to.
   void add_faces() {
     std::size_t start = 0;
     std::vector<std::uint32_t> polygon;
@@ -345,7 +345,7 @@ const core::Word<PlyReader::Reader> PlyReader::kElements[2] = {{"vertex", &PlyRe
 /// "face" are left out with a note. Time and memory are bounded by the length of the content.
 ///
 /// Other readers are not used: assimp up to 5.3 skips data bytes of binary files that look like white space
-/// after the header, and CGAL 5.5 crashes on headers whose lines stand in an unexpected order.
+/// after the header, and CGAL 5.5 crashes on headers whose lines are in an unexpected order.
 RawMesh import_ply(const MeshFile& file) { return PlyReader(file.path, file.content).read(); }
 
 }  // namespace scintray::mesh

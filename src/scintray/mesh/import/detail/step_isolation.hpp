@@ -1,6 +1,6 @@
 #pragma once
 /// Isolation from Open CASCADE, which follows endless references and null pointers: a check of the file
-/// before it is read, and the transfer of the mesh from a process of its own.
+/// before it is read, and the transfer of the mesh from a child process.
 
 #include <filesystem>
 #include <string>
@@ -12,11 +12,11 @@
 namespace scintray::mesh {
 
 /// Throws InputError when an entity of the file (ISO 10303-21) refers to itself, over any number of others,
-/// or to one that does not exist, and when references are nested more than 10,000 deep.
+/// or to one that does not exist, and when references are nested more than 10,000 deep (chosen).
 void check_step_references(const std::filesystem::path& path, const std::string& content);
 
-/// Reads and tessellates the file by Open CASCADE, whose settings and messages are one per process: called in
-/// a process of its own. Throws InputError for content that it cannot read or tessellate.
+/// Reads and tessellates the file by Open CASCADE, whose settings and messages are one set per process:
+/// called in a child process. Throws InputError for content that it cannot read or tessellate.
 RawMesh read_step(const std::filesystem::path& path, const std::string& content,
                   const Tessellation& tessellation);
 

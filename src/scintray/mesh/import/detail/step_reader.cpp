@@ -344,7 +344,7 @@ void refuse_what_did_not_load(STEPCAFControl_Reader& reader, const std::filesyst
 RawMesh read_step(const std::filesystem::path& path, const std::string& content,
                   const Tessellation& tessellation) {
   try {
-    Message::DefaultMessenger()->ChangePrinters().Clear();  // a library does not print
+    Message::DefaultMessenger()->ChangePrinters().Clear();  // libraries must not print
     STEPCAFControl_Reader reader;
     // Names of single faces, as CAD programs write them.
     Interface_Static::SetIVal("read.stepcaf.subshapes.name", 1);

@@ -94,7 +94,7 @@ class CrossingRemover {
       tried_.clear();
       pass({});
     }
-    // A step that leaves crossings may open the way for others.
+    // A step that leaves crossings may make others possible.
     if (stuck()) pass({.clean = false, .large = false});
     if (stuck()) pass({.clean = false});
     std::vector<std::uint32_t> added;
@@ -141,8 +141,8 @@ class CrossingRemover {
         queue.push(next);
         continue;
       }
-      // The cover of many corners takes long to try, and crosses itself until what is wrong on its outline is
-      // gone.
+      // The cover of many corners takes long to try, and crosses itself until the defects on its outline are
+      // removed.
       if (around_[next.vertex].size() > kLargestCover &&
           (!allowed.large || (allowed.clean && !tried_.insert(next.vertex).second)))
         continue;

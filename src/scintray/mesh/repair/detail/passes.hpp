@@ -13,21 +13,22 @@
 
 namespace scintray::mesh {
 
-/// The defects of edges alone, as diagnose() finds them: open, non-manifold and flipped.
+/// The defects of edges only, as by diagnose(): open, non-manifold and flipped.
 [[nodiscard]] MeshDiagnosis edge_defects(const TriMesh& mesh);
 
 /// Removes triangles with the same three corners as others. One of them stays where its edges need it
-/// for an even number of triangles; none where they are the two sides of a wall inside.
+/// for an even number of triangles; none where they are the two sides of an internal wall.
 Defects remove_duplicates(TriMesh& mesh);
 
 /// Removes flaps and inner walls, smallest first: pieces of surface at an edge of an odd number of
 /// triangles, three or more, whose absence leaves two triangles, or none, at each of their outer edges.
 Defects remove_fins(TriMesh& mesh);
 
-/// Separates bodies that share edges or single vertices, by giving each body vertices of its own. At an edge
-/// of several triangles those two belong together that are the only ones of a piece of surface there,
-/// else those that enclose one wedge of the solid. Returns the edges that were separated; those whose
-/// triangles do not pair up are unchanged. Neighbours must agree (orient_outwards).
+/// Separates bodies that share edges or single vertices, by duplicating these. At an edge of several
+/// triangles those two are paired that are the only ones of a piece of surface there, else those that enclose
+/// one wedge of the solid. Returns the edges that were separated; those whose triangles cannot be paired are
+/// unchanged.
+/// @pre neighbours have consistent orientation (orient_outwards)
 Defects part_touching_bodies(TriMesh& mesh);
 
 struct HoleFilling {
@@ -35,22 +36,23 @@ struct HoleFilling {
   Defects too_large;        ///< left open
   double largest_mm = 0.0;  ///< diagonal of the bounding box of the largest of those left open
   Defects without_cover;    ///< CGAL found no surface over them
-  std::size_t sheets = 0;   ///< bodies that would enclose nothing: left open
+  std::size_t sheets = 0;   ///< bodies that would enclose no volume: left open
 };
 
 /// Fills holes whose bounding box has a diagonal of at most `limit_mm`. The fill has the group of a triangle
 /// beside it. A sheet whose only hole is its own outline remains a sheet.
 [[nodiscard]] HoleFilling fill_holes(TriMesh& mesh, double limit_mm);
 
-/// Triangles (indices into `loop`) over a closed loop of three or more points, of the smallest worst
-/// dihedral angle and then area (P. Liepa 2003, "Filling holes in meshes"). They run against the loop:
-/// a loop in the sense of the open edges' own triangles gives triangles that agree with those. Empty
+/// Triangles (indices into `loop`) over a closed loop of three or more points, that minimise the largest
+/// dihedral angle and then the area (P. Liepa 2003, "Filling holes in meshes"). They run against the loop: a
+/// loop in the sense of the triangles at its open edges gives triangles of consistent orientation. Empty
 /// when CGAL finds none.
 [[nodiscard]] std::vector<std::array<std::uint32_t, 3>> triangulate_hole(const std::vector<core::Vec3>& loop);
 
-/// Triangles (indices into `outline`) over a closed outline, along it, of the least area together; long ones
-/// count a little more, which decides in flat holes. By trying all, in the cube of the number of corners: for
-/// a few dozen. Empty when there are none.
+/// Triangles (indices into `outline`) over a closed outline, in its sense, of least total area; long ones
+/// have a slightly larger weight, which decides in flat holes. By dynamic programming over all
+/// triangulations, in a time of the cube of the number of corners: for a few dozen. Empty when there are
+/// none.
 /// @param least_height_mm  a triangle is higher than this above its longest side
 /// @param joined  true for two corners that no new edge may join
 [[nodiscard]] std::vector<std::array<std::uint32_t, 3>> triangles_of_least_area(
@@ -62,15 +64,15 @@ struct CrossFree {
   Defects left_out;              ///< vertices that the mesh no longer has
   double farthest_mm = 0.0;      ///< largest distance of one of them from the triangles in its place
   std::size_t remaining = 0;     ///< pairs of triangles that still cross
-  std::size_t covers_tried = 0;  ///< covers of holes that were made, taken or not: a measure of the work
+  std::size_t covers_tried = 0;  ///< covers of holes computed, accepted or not: a measure of the work
 };
 
-/// A closed mesh without some vertices, so that no triangles cross. Those in most crossings go first, each
-/// with the triangles around it, whose outline is covered by flat triangles or, where it has many corners, by
-/// as many triangles around its middle. A new triangle takes the group of the one that had its side of the
-/// outline. Where more than a twentieth of the vertices would go, or none can, or two sheets cross along a
-/// line of thousands of triangles, crossings remain.
-/// @param crossings  as self_intersections() finds them
+/// A closed mesh without some of its vertices, so that no triangles cross. Vertices in the most crossings are
+/// removed first, each with the triangles around it, whose outline is covered by triangles of least area or,
+/// where it has many corners, by a fan about its centre. A new triangle takes the group of the one that had
+/// its side of the outline. Where more than a twentieth (chosen) of the vertices would be removed, or none
+/// can be, or two sheets cross along a line of thousands of triangles, crossings remain.
+/// @param crossings  of self_intersections()
 [[nodiscard]] CrossFree without_crossings(TriMesh mesh,
                                           std::vector<std::pair<std::uint32_t, std::uint32_t>> crossings);
 

@@ -7,7 +7,7 @@
 
 namespace scintray::report {
 
-/// A whole document, of which no script may run but those that it holds.
+/// A complete document, in which only its own scripts may run.
 struct HtmlDocument {
   std::string title;                        ///< plain text
   std::string style;                        ///< CSS
@@ -16,7 +16,7 @@ struct HtmlDocument {
   bool page_script = false;                 ///< whether the script of pages follows them
 };
 
-/// The document's text. Its Content-Security-Policy allows its styles, its pictures and its scripts alone.
+/// The document's text. Its Content-Security-Policy allows only its own styles, pictures and scripts.
 std::string html_document(const HtmlDocument& document);
 
 /// CSS of the script of pages (values under the pointer, zoom, saved plots, sorted and searched tables);

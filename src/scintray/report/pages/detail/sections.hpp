@@ -18,7 +18,7 @@ std::string headline(const tally::PointResult& point);
 std::string fate_section(const tally::RunResult& run);
 /// Photons per sensor and face.
 std::string sensor_section(const tally::RunResult& run);
-/// Exit angle histograms, one plot a tally and point.
+/// Exit angle histograms, one plot per tally and point.
 std::string angle_section(const tally::RunResult& run);
 /// Path length of detected photons.
 std::string path_section(const tally::RunResult& run);
@@ -33,12 +33,12 @@ std::string shift_section(const tally::RunResult& run);
 /// A figure or a table for every tally of every point; empty without tallies.
 std::string tally_section(const tally::RunResult& run);
 
-/// One line a tally, for a terminal; empty without tallies.
+/// One line per tally, for a terminal; empty without tallies.
 std::string tally_lines(const tally::RunHeader& header, const tally::PointResult& point);
 
 /// A section for each goniometer: mean visible slope and reflectance against incidence, the latter beside
-/// Fresnel's for each medium behind the surfaces, and where reflected light goes. Empty without readings. The
-/// page needs hemisphere_map_style().
+/// Fresnel's for each medium behind the surfaces, and the directions of reflected light. Empty without
+/// readings. The page needs hemisphere_map_style().
 std::string goniometer_sections(const std::vector<analysis::SurfaceAnalysis>& analyses);
 
 }  // namespace scintray::report

@@ -19,7 +19,7 @@ namespace scintray::report {
 /// Unit of the light of an analysis: "photoelectrons" or "photons".
 std::string light_unit(const analysis::EventAnalysis& analysis);
 
-/// The spectrum with the fitted photopeak, if there is one, and a scale in keV at the mean light per energy
+/// The spectrum with the fitted photopeak, if any, and a scale in keV at the mean light per energy
 /// deposited where that is known. Requires a spectrum.
 Plot spectrum_plot(const analysis::EventAnalysis& analysis);
 

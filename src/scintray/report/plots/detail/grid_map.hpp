@@ -1,5 +1,5 @@
 #pragma once
-/// Pictures of a quantity over two axes.
+/// Plots of a quantity over two axes.
 
 #include <array>
 #include <cstdint>
@@ -16,7 +16,7 @@ struct GridMap {
   double x_low = 0.0, x_high = 1.0, y_low = 0.0, y_high = 1.0;
   std::string x_label, y_label, value_label;
   std::string alternative;  ///< read by screen readers
-  /// Colours are even in log(1 + value / unit) instead of in the value.
+  /// Colours are linear in log(1 + value / unit) instead of in the value.
   bool logarithmic = false;
   double unit = 1.0;                            ///< of the logarithmic scale, above 0
   std::vector<std::array<double, 4>> lines;     ///< drawn over the cells: x and y of both ends
@@ -34,8 +34,8 @@ struct GridMap {
 /// Throws std::invalid_argument when the values do not fill the grid.
 std::string grid_map(const GridMap& map);
 
-/// Picture of directions over a hemisphere seen along the normal: distance from the centre is the polar angle
-/// (circles at 30, 60 and 90 deg), azimuth 0 to the right and rising counter-clockwise.
+/// Plot of directions over a hemisphere, projected along the normal: distance from the centre is the polar
+/// angle (circles at 30, 60 and 90 deg), azimuth 0 to the right and rising counter-clockwise.
 /// @param values  rows of equal steps in the squared sine of the polar angle, columns of azimuth from
 ///                -180 to 180 deg
 std::string polar_map(const GridMap& map);
@@ -49,7 +49,7 @@ struct PolarCells {
   std::uint32_t pixels = 0;           ///< of its picture, a side
 };
 
-/// Them as members of a JSON object, after a comma.
+/// The cells as members of a JSON object, after a comma.
 std::string polar_json(const PolarCells& cells);
 
 /// CSS of both pictures.

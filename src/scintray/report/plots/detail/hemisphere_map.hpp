@@ -8,8 +8,8 @@
 
 namespace scintray::report {
 
-/// The hemisphere seen along its normal: distance from the centre is the polar angle (circles at 30, 60 and
-/// 90 deg), forward is to the right. Colours (viridis) are the logarithm of the density per sr over three
+/// The hemisphere projected along its normal: distance from the centre is the polar angle (circles at 30, 60
+/// and 90 deg), forward is to the right. Colours (viridis) are the logarithm of the density per sr over three
 /// decades up to the largest of the map; cells with less, or without light, have the lowest colour.
 ///
 /// @param mark_rad  polar angle, forward, of a cross, the direction of light from a flat face; below 0: none

@@ -1,5 +1,5 @@
 #pragma once
-/// Results of the analyses of events, in words, for captions and terminals.
+/// Results of the analyses of events as text, for captions and terminals.
 
 #include <optional>
 #include <string>

@@ -6,8 +6,8 @@
 
 namespace scintray::report {
 
-/// A member or an element a line, and lists of plain values (numbers, text) on one line each. Text that is
-/// not UTF-8 has U+FFFD in place of what is not.
+/// JSON with one member or element per line, and lists of plain values (numbers, text) on one line each.
+/// Bytes that are not UTF-8 are replaced by U+FFFD.
 std::string json_text(const nlohmann::ordered_json& json);
 
 }  // namespace scintray::report

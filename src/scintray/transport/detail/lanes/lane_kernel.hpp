@@ -2,16 +2,16 @@
 /// Propagation of several photons at once, in the lanes of vector registers, through convex regions that are
 /// bounded by planes, or by planes and quadrics of revolution.
 ///
-/// This header has plain data alone: it is included by files that are compiled for instruction sets which not
-/// every processor has, and a function of a common header, compiled there, could be the one that the linker
-/// keeps for all.
+/// This header has only plain data: it is included by files that are compiled for instruction sets which not
+/// every processor has, and a function of a common header compiled there could be the one that the linker
+/// keeps for all files.
 
 #include <cstddef>
 #include <cstdint>
 
 namespace scintray::transport {
 
-/// The end of a photon's way through its region.
+/// The end of a photon's propagation through its region.
 enum class LaneEnd : std::uint32_t {
   bulk,      ///< the next event is in the medium; the photon is where its last segment began
   boundary,  ///< the photon is on a face at which no total reflection follows
@@ -28,7 +28,7 @@ struct LanePlanes {
   std::uint32_t count = 0;
   std::uint32_t opposite = 0;  ///< of these, the first: two by two with opposite normals
 
-  /// Always inlined, as nothing of this header may be left to the linker.
+  /// Always inlined, as no function of this header may be left to the linker.
   [[gnu::always_inline]] const double* plane(std::size_t i) const { return first + i * stride; }
 };
 

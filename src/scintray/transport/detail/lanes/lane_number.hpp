@@ -1,6 +1,6 @@
 #pragma once
-/// Numbers in the lanes of a vector register, or of two, with the operations of core/number.hpp. A type for
-/// each instruction set, so that nothing that is compiled for one can stand for another.
+/// Numbers in the lanes of a vector register, or of two, with the operations of core/number.hpp. Each
+/// instruction set has its own type, so that code compiled for one cannot replace that for another.
 
 #include <cstddef>
 #include <xsimd/xsimd.hpp>
@@ -72,8 +72,8 @@ struct LaneBits {
   friend LaneReal<Arch> number_of(const LaneBits& bits) {
     return {xsimd::bitwise_cast<xsimd::batch<double, Arch>>(bits.lanes)};
   }
-  /// Of whole numbers below 2^53: the upper and the lower 32 bits, each as the last bits of a number of which
-  /// the others are known.
+  /// For whole numbers below 2^53: the upper and the lower 32 bits, each as the last bits of a number whose
+  /// other bits are fixed.
   friend LaneReal<Arch> value_of(const LaneBits& whole) {
     const LaneReal<Arch> upper = number_of((whole >> 32) | LaneBits(core::bits_of(0x1.0p84)));
     const LaneReal<Arch> lower =
@@ -129,9 +129,8 @@ struct LaneReal {
   static constexpr std::uint64_t kSign = std::uint64_t{1} << 63;
 };
 
-// Two registers: each operation is made twice, on numbers that do not depend on each other, so that a
-// processor has something to do while it waits for the one before. What is decided for all lanes together is
-// decided half as often.
+// Two registers: each operation is made twice, on independent numbers, so that a processor executes one while
+// it waits for the other. Decisions common to all lanes are made half as often.
 
 template <typename Arch>
 struct LaneRealPair;

@@ -1,10 +1,10 @@
 #pragma once
 /// The kernel of lane_pool.hpp for one instruction set. Included by one file for each.
 ///
-/// A pass carries each photon of one vector from where it waits (lane_state) as far as the order of the
+/// A pass carries each photon of one vector from its state (lane_state) as far as the order of the
 /// stages allows: propagation to the next plane, microsurface, reflector, polarisation. A stage without
-/// photons is left out; photons that are not in it are masked. Time goes with the instructions, so what is
-/// repeated until it is accepted, a facet, is repeated alone.
+/// photons is skipped; photons that are not in it are masked. Time is proportional to instructions, so the
+/// rejection sampling of facets is repeated on its own.
 
 #include "scintray/core/sampling_laws.hpp"
 #include "scintray/optics/facet_laws.hpp"
@@ -35,7 +35,7 @@ class LanePasses : LanePhotons<Real, kDraws> {
   using typename Photons::Random;
   using typename Photons::Vector;
   using Light = optics::LightRay<Real>;
-  /// Facets are drawn again until so few lanes are without one; those wait for the next pass.
+  /// Facets are redrawn until at most this number of lanes lacks one; those wait for the next pass.
   static constexpr int kFewLanes = static_cast<int>(kWidth / 4);
 
  public:
@@ -47,7 +47,7 @@ class LanePasses : LanePhotons<Real, kDraws> {
   }
 
  private:
-  /// What stages change, and the plane that a photon is at.
+  /// The state changed by the stages, and the plane that a photon is at.
   struct Now {
     Real state, side;
     Light light;
@@ -56,7 +56,7 @@ class LanePasses : LanePhotons<Real, kDraws> {
     const double* face[kWidth];  ///< LaneFace
   };
 
-  /// One pass of the photons at `at_`; true when one of them waits then.
+  /// One pass of the photons at `at_`; true when one of them then waits for the scalar code.
   [[gnu::flatten]] bool pass() {
     Now now;
     now.state = load(pool_.state);
@@ -68,7 +68,7 @@ class LanePasses : LanePhotons<Real, kDraws> {
     const auto in = [&now](double state) { return now.state == Real(state); };
     Mask here = in(lane_state::kPropagate);
     if (any(here)) {
-      // Between total reflections nothing is drawn.
+      // Between total reflections no random number is needed.
       do {
         propagate(now, here);
         here = in(lane_state::kPropagate);
@@ -195,7 +195,7 @@ class LanePasses : LanePhotons<Real, kDraws> {
     now.side = select(here, one, now.side);
   }
 
-  /// Smooth surfaces, and facets, of which one is drawn first; where none is accepted the photon stays.
+  /// Smooth surfaces, and facets, for which one is drawn first; where none is accepted the photon stays.
   void pass_microsurface(Now& now, const Mask& smooth, const Mask& facets) {
     const Vector against = -now.side * now.normal;
     Vector m = against;
@@ -260,7 +260,7 @@ class LanePasses : LanePhotons<Real, kDraws> {
     return {{direction, polarisation}, transmitted, !total};
   }
 
-  /// What is looked up in tables, for each photon.
+  /// Table entries for each photon.
   struct LookedUp {
     const optics::TableView* view[kWidth];
     const optics::TableInterval* interval[kWidth];

@@ -9,8 +9,8 @@ namespace scintray::transport {
 
 namespace {
 
-/// Which way random numbers are drawn: a block in each lane, or with scalar instructions for those lanes
-/// alone that lack numbers, which is faster where vectors are short, as their products are of 32 bits.
+/// Method of drawing random numbers: a block in each lane, or with scalar instructions only for lanes that
+/// lack numbers, which is faster where vectors are short, as their products have 32 bits.
 enum class LaneDraws { in_lanes, one_by_one };
 
 template <typename Real, LaneDraws kDraws>
@@ -40,7 +40,7 @@ class LanePhotons {
     return bits_of(select(condition, number_of(yes), number_of(no)));
   }
 
-  /// A block of random numbers for each photon of `draws` that has fewer than so many, at most four, left.
+  /// Draws a block of random numbers for each photon of `draws` with fewer than `needed`, at most four, left.
   void draw(const Mask& draws, double needed) {
     const Real ready = value_of((load(pool_.counter[0]) << 2) - load(pool_.drawn));
     const Mask lack = draws & (ready < Real(needed));
@@ -98,7 +98,7 @@ class LanePhotons {
       for (std::size_t i = 0; i < 4; ++i) numbers[LanePool::kNumbers + i] = block.words[i];
     }
   }
-  /// For all that have room: which are computed does not depend on who lacks numbers.
+  /// For all photons with room, also those that do not lack numbers.
   void draw_in_lanes(const Mask& room) {
     const Bits blocks = load(pool_.counter[0]);
     const core::PhiloxBlock<Bits> block(

@@ -1,6 +1,6 @@
 #pragma once
-/// The plane through which a ray in each lane leaves a convex region, as scene/detail/nearest_plane.hpp finds
-/// it for one ray: the same numbers, in the same order.
+/// The plane through which a ray in each lane leaves a convex region, computed as for one ray in
+/// scene/detail/nearest_plane.hpp: the same numbers, in the same order.
 
 #include <limits>
 
@@ -15,12 +15,11 @@ struct LaneAhead {
   Real distance_mm{std::numeric_limits<double>::infinity()};
   Real plane{0.0}, cosine{0.0};
 
-  /// Takes two opposite planes, of numbers `first` and the next.
-  /// @param normal    of the first one
-  /// @param first_mm  product of its normal and any point of it; @param second_mm  likewise of the other,
-  /// whose
-  ///                  normal is the opposite; infinite: there is none
-  /// @param from      the ray's origin
+  /// Takes two opposite planes, with the numbers `first` and `first` + 1.
+  /// @param normal     of the first one
+  /// @param first_mm   product of its normal and any point of it
+  /// @param second_mm  likewise of the other, whose normal is the opposite; infinite: there is none
+  /// @param from       the ray's origin
   void take(const core::Triple<Real>& normal, const Real& first_mm, const Real& second_mm,
             const core::Triple<Real>& from, const core::Triple<Real>& direction, double first) {
     const Real signed_along = dot(normal, direction), height = dot(normal, from);

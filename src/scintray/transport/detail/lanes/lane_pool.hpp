@@ -1,10 +1,10 @@
 #pragma once
-/// Photons that stay in the lanes of vector registers through all that happens at the surfaces of regions
-/// bounded by planes.
+/// Photons that stay in the lanes of vector registers through interactions at the surfaces of regions bounded
+/// by planes.
 ///
-/// This header has plain data alone: it is included by files that are compiled for instruction sets which not
-/// every processor has, and a function of a common header, compiled there, could be the one that the linker
-/// keeps for all.
+/// This header has only plain data: it is included by files that are compiled for instruction sets which not
+/// every processor has, and a function of a common header compiled there could be the one that the linker
+/// keeps for all files.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace scintray::transport {
 
-/// What a photon of the pool does next. Numbers, as they are compared in lanes.
+/// The next stage of a photon of the pool. Floating-point numbers, as they are compared in lanes.
 namespace lane_state {
 inline constexpr double kEmpty = 0.0;
 inline constexpr double kPropagate = 1.0;  ///< along its direction to the next plane
@@ -57,7 +57,7 @@ struct LaneFace {
   double normal[3];  ///< of unit length, out of the region
   double kind;       ///< kSmooth, kFacets, kTable, kReflector; kBoundary, kUnclear: for the scalar code
 
-  double index_behind;  ///< of what the microsurface borders on
+  double index_behind;  ///< of the medium behind the microsurface
   double least_sin2;    ///< of a plain surface: sine squared from which light is totally reflected
   double counted;       ///< 1 when reaching it counts as an interaction
   double reflector;     ///< 1: behind the microsurface is a reflector; 0: the next region
@@ -73,7 +73,7 @@ struct LaneFace {
 };
 static_assert(sizeof(LaneFace) == 128);
 
-/// Where a photon is: its region's planes and faces.
+/// Planes and faces of the region of a photon.
 struct LaneRegion {
   const PlanePair* planes = nullptr;
   const LaneFace* faces = nullptr;  ///< two per PlanePair
@@ -83,8 +83,8 @@ struct LaneRegion {
 /// The photons, each at one index of every array.
 struct LanePool {
   static constexpr std::size_t kPhotons = 32;
-  /// Random numbers of a photon that are not used yet, of whole blocks of four. The first four stand behind
-  /// the last again, so that any four that follow each other can be loaded.
+  /// Random numbers of a photon that are not used yet, in whole blocks of four. The first four are repeated
+  /// after the last, so that any four consecutive ones can be loaded.
   static constexpr std::size_t kNumbers = 16;
   using Numbers = double[kPhotons];
   using Counts = std::uint64_t[kPhotons];
