@@ -112,7 +112,7 @@ class Limits(unittest.TestCase):
         alone = figures(20.0, 40.0, outside=100.0)
         alone.counts.by_kind['ray query'] = Counts(25.0)
         self.assertEqual(report.conclusion(alone), 'no kernels; the ray query alone takes 0.50 of them')
-        self.assertEqual(report.asked_nanoseconds(figures(20.0, 40.0)), 10.0)
+        self.assertEqual(report.required_nanoseconds(figures(20.0, 40.0)), 10.0)
         # Over another scene, by its time now: 8 ns / 0.8 of the 20 ns that 100 instructions take.
         other = dataclasses.replace(figures(20.0, 40.0), row=rows.Row('scene', 0.8, 1, of='one'), of_nanoseconds={4: 8.0})
         self.assertEqual(report.instructions_left(other), 50.0)

@@ -24,7 +24,7 @@ ROUNDS = 3
 
 def arguments():
     parser = argparse.ArgumentParser(prog='tools/limits', description='Instructions, loads, stores and wrong predictions a segment, '
-                                     'the time that they take, and what a factor asked over an earlier version leaves.')
+                                     'the time that they take, and what is left for a required factor over an earlier version.')
     names = [row.scene for row in rows.ROWS]
     parser.add_argument('program', type=Path, help=argparse.SUPPRESS)
     parser.add_argument('--scene', action='append', metavar='NAME', choices=names, help=f'of {", ".join(names)}; may be repeated')

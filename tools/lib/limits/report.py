@@ -71,7 +71,7 @@ def table_of_times(measured, clock):
                   'ns of wrong predictions', 'ns of the chain'], lines)
 
 
-def asked_nanoseconds(figures, lanes=COUNTED_LANES):
+def required_nanoseconds(figures, lanes=COUNTED_LANES):
     """Time a segment (ns) that the factor leaves; None without what it is a factor over."""
     if figures.row.of:
         return figures.of_nanoseconds[lanes] / figures.row.factor
@@ -81,16 +81,16 @@ def asked_nanoseconds(figures, lanes=COUNTED_LANES):
 def instructions_left(figures):
     """Instructions a segment that the factor leaves, at as many a ns as before; over another scene, at as many as now."""
     if figures.row.of:
-        return asked_nanoseconds(figures) * figures.counts.whole.instructions / figures.nanoseconds[COUNTED_LANES]
+        return required_nanoseconds(figures) * figures.counts.whole.instructions / figures.nanoseconds[COUNTED_LANES]
     return figures.before.instructions / figures.row.factor if figures.before else None
 
 
 def conclusion(figures):
     """What the instructions that the factor leaves would have to do."""
-    asked, left, counts = asked_nanoseconds(figures), instructions_left(figures), figures.counts
-    if asked is None:
+    required, left, counts = required_nanoseconds(figures), instructions_left(figures), figures.counts
+    if required is None:
         return '-'
-    if figures.nanoseconds[COUNTED_LANES] <= asked:
+    if figures.nanoseconds[COUNTED_LANES] <= required:
         return 'met'
     outside = counts.whole.instructions - counts.kernels.instructions
     if counts.kernels.instructions < FEW * counts.whole.instructions:
@@ -104,18 +104,18 @@ def table_of_factors(measured):
     lines = []
     for figures in measured:
         row, ns, whole = figures.row, figures.nanoseconds, figures.counts.whole.instructions
-        asked = asked_nanoseconds(figures)
+        required = required_nanoseconds(figures)
         reached = []
         for lanes in sorted(ns):
             base = figures.of_nanoseconds[lanes] if row.of else figures.before and figures.before.nanoseconds
             reached.append(number(base / ns[lanes] if base else None, 2))
         lines.append([row.scene, f'{row.factor:g} x' + (f' {row.of}' if row.of else ''),
                       number(figures.before and figures.before.instructions), number(figures.before and figures.before.nanoseconds, 1),
-                      *reached, number(asked, 1), number(instructions_left(figures)), number(whole),
+                      *reached, number(required, 1), number(instructions_left(figures)), number(whole),
                       number(whole - figures.counts.kernels.instructions), conclusion(figures)])
     lanes = sorted(measured[0].nanoseconds) if measured else []
-    return table(['scene', 'asked', 'before: instructions', 'before: ns', *(f'reached, {width} lanes' for width in lanes),
-                  'ns asked', 'instructions left', 'instructions now', 'of them not in kernels', 'so'], lines)
+    return table(['scene', 'required', 'before: instructions', 'before: ns', *(f'reached, {width} lanes' for width in lanes),
+                  'ns required', 'instructions left', 'instructions now', 'of them not in kernels', 'so'], lines)
 
 
 def text_of(measured, machine, version):

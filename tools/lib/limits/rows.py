@@ -1,4 +1,4 @@
-"""The scenes whose limits are stated, what was asked of them, and what a processor can do at most."""
+"""The scenes whose limits are stated, what is required of them, and what a processor can do at most."""
 
 import dataclasses
 
@@ -7,7 +7,7 @@ import dataclasses
 class Row:
     """A scene of the benchmark.
 
-    factor  asked, over the segments/s of version 0.1; with `of`: over those of that scene
+    factor  required, over the segments/s of version 0.1; with `of`: over those of that scene
     work    photons, or events, of the smaller of two counts: some hundred thousand segments between them
     """
 
