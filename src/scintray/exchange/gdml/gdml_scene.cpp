@@ -12,6 +12,7 @@
 #include "scintray/exchange/gdml/detail/optical.hpp"
 #include "scintray/exchange/gdml/detail/solids.hpp"
 #include "scintray/exchange/gdml/detail/structure.hpp"
+#include "scintray/exchange/gdml/detail/volumes_left.hpp"
 #include "scintray/mesh/shapes/primitives.hpp"
 
 namespace scintray::exchange::gdml {
@@ -41,9 +42,10 @@ class SceneMaker {
   SceneDraft make(const std::string& file_name) {
     read_media();
     name_parts();
+    leave_out_filled();
     find_copies_and_skins();
     find_sensors();
-    std::string parts;
+    std::string parts = world_part();
     for (std::size_t i = 0; i < structure_.placed.size(); ++i) {
       core::report_activity("making solids: " + structure_.placed[i].solid, i, structure_.placed.size());
       parts += part(i);
@@ -60,7 +62,7 @@ class SceneMaker {
     draft.toml = "# Made by scintray import from " + file_name + ".\n";
     if (!notes.empty()) draft.toml += "# Not carried over, or different from Geant4:\n" + notes;
     draft.toml += "title = " + toml_string(file_name) +
-                  "\nambient = " + toml_string(medium_name(structure_.world_material)) +
+                  "\nambient = " + toml_string(ambient_) +
                   "  # the material of the world\ncontacts_default = \"each_side\"  # Geant4's rule for skin "
                   "surfaces\n" +
                   parts + contacts + source_table + media_tables() + surface_tables_ + sensor_tables_;
@@ -101,6 +103,55 @@ class SceneMaker {
             core::Problem{{},
                           "--medium names a material \"" + material + "\" that the file does not have",
                           "its materials are " + material_list()});
+    check_material(structure_.world_material, structure_.world);
+    for (const PlacedVolume& placed : structure_.placed) check_material(placed.material, placed.element);
+  }
+
+  /// As in Geant4, which refuses names that neither the file nor its own database has (G4_...).
+  void check_material(const std::string& material, Node volume) {
+    if (media_.contains(material)) return;
+    if (!material.starts_with("G4_"))
+      file_.reject(volume, "no material is called \"" + material + "\"",
+                   "define it in <materials>; the file has " +
+                       (media_.empty() ? std::string("none") : material_list()));
+    note("material " + material + " is one of Geant4's own database, without optical properties: opaque");
+  }
+
+  /// Leaves out mothers that one daughter fills: light that enters such a mother is in the daughter.
+  void leave_out_filled() {
+    left_ = shares_left(structure_, solids_);
+    std::vector<std::size_t> daughters(left_.size(), 0);
+    for (const PlacedVolume& placed : structure_.placed)
+      if (placed.mother) ++daughters[*placed.mother];
+    for (std::size_t i = 0; i < left_.size(); ++i) {
+      if (left_[i] > kNothingLeft || daughters[i] != 1) continue;
+      left_out_[i] = true;
+      note("volume " + structure_.placed[i].volume +
+           " is filled by its daughter and left out; its surfaces, at which Geant4 has a step of no length, do "
+           "not act");
+    }
+  }
+
+  /// The box of the world, where light is absorbed or scattered in it: beyond it, where Geant4's light ends,
+  /// the same index goes on, in which nothing happens to light. Sets the ambient medium.
+  std::string world_part() {
+    const std::string& material = structure_.world_material;
+    ambient_ = medium_name(material);
+    const ImportedMedium* medium = find_medium(material);
+    if (structure_.placed.empty() || !medium || medium->opaque || medium->clear ||
+        options_.media.contains(material))
+      return "";
+    ambient_ = "beyond the world";
+    surface_tables_ += "\n[media." + toml_string(ambient_) + "]\n" + medium->index +
+                       "absorption = { none = true }\nscattering = { none = true }\n";
+    PlacedVolume world;
+    world.volume = structure_.world_volume;
+    world.solid = structure_.world_solid;
+    world.element = structure_.world;
+    std::string name = part_name(world.volume);
+    while (std::find(names_.begin(), names_.end(), name) != names_.end()) name += "_box";
+    return "\n[[part]]\nname = " + toml_string(name) + "\n" + shape(world, false) +
+           "medium = " + toml_string(material) + "\n";
   }
 
   std::string material_list() const {
@@ -178,6 +229,7 @@ class SceneMaker {
 
   std::string part(std::size_t i) {
     const PlacedVolume& placed = structure_.placed[i];
+    if (left_out_[i]) return "";
     const Eigen::Matrix3d linear = placed.to_world.linear();
     // Scaled placements: rotation and scale are applied to the mesh.
     const bool scaled = !(linear.transpose() * linear).isIdentity(1e-9) || linear.determinant() < 0.0;
@@ -321,6 +373,12 @@ class SceneMaker {
   /// light that enters is a hit, too.
   std::string sensor(const SurfacePlacement& surface, const std::string& efficiency, bool sensitive) {
     const std::string name = surface.property + (sensitive ? " of a sensitive volume" : " sensor");
+    if (sensitive)
+      note("surface " + surface.property +
+           ": light that it absorbs is detected by its EFFICIENCY, and so is light that enters the sensitive "
+           "volume; in Geant4 the first are hits only after /process/optical/boundary/setInvokeSD true: "
+           "without it, write converts = \"entering\" in [sensors." +
+           toml_string(name) + "]");
     if (defined_sensors_.insert(name).second)
       sensor_tables_ += "\n[sensors." + toml_string(name) + "]  # EFFICIENCY of " + surface.property +
                         "\nconverts = \"" + (sensitive ? "both" : "absorbed") +
@@ -382,11 +440,12 @@ class SceneMaker {
   }
 
   std::string source() {
-    for (const PlacedVolume& placed : structure_.placed)
-      if (const ImportedMedium* medium = find_medium(placed.material);
-          medium && !options_.media.contains(placed.material))
-        for (const std::string& left_out : medium->notes)
-          note("material " + placed.material + ": " + left_out);
+    const auto note_material = [this](const std::string& material) {
+      if (const ImportedMedium* medium = find_medium(material); medium && !options_.media.contains(material))
+        for (const std::string& left_out : medium->notes) note("material " + material + ": " + left_out);
+    };
+    note_material(structure_.world_material);
+    for (const PlacedVolume& placed : structure_.placed) note_material(placed.material);
     for (const auto& [scintillating, apart] :
          {std::pair{true, true}, std::pair{true, false}, std::pair{false, true}, std::pair{false, false}})
       for (std::size_t i = 0; i < names_.size(); ++i) {
@@ -394,7 +453,7 @@ class SceneMaker {
         const PlacedVolume& placed = structure_.placed[i];
         const ImportedMedium* medium = find_medium(placed.material);
         const bool own = medium && !options_.media.contains(placed.material);
-        if (left_out_[i] || is_opaque(placed.material) || (scintillating && !(own && medium->scintillates)))
+        if (left_out_[i] || left_[i] <= kNothingLeft || is_opaque(placed.material) || (scintillating && !(own && medium->scintillates)))
           continue;
         const std::string wavelength = scintillating ? "emission" : "420 nm";
         return "\n[source]  # an example: a GDML file has none\ntype = \"photons\"\nregion = { part = " +
@@ -421,6 +480,8 @@ class SceneMaker {
   std::map<std::string, const SurfacePlacement*> skins_;  ///< by the name of the volume
   std::set<std::string> noted_;
   std::vector<bool> left_out_;
+  std::vector<double> left_;  ///< shares of the volumes beside their daughters
+  std::string ambient_;
   std::vector<std::string> sensors_;  ///< of the parts; empty: none
   std::set<std::string> used_media_, defined_surfaces_, defined_sensors_;
   std::string surface_tables_, sensor_tables_;

@@ -15,6 +15,9 @@ namespace scintray::exchange::gdml {
 
 namespace {
 
+const std::string kNoAbsorption = "absorption = { none = true }\n";
+const std::string kNoScattering = "scattering = { none = true }\n";
+
 class MaterialImporter {
  public:
   explicit MaterialImporter(const OpticalTables& tables)
@@ -61,11 +64,15 @@ class MaterialImporter {
     const EnergyTable index = table(material, "RINDEX");
     medium.opaque = index.empty();
     if (medium.opaque) return medium;
-    medium.toml = "index = { n = " + curve(index, "") + group_index(material, medium) + " }\n";
-    const EnergyTable rayleigh = table(material, "RAYLEIGH");
-    medium.toml += absorption(material, medium);
+    require_light(material, index);
+    medium.index = "index = { n = " + curve(index, "") + group_index(material, medium) + " }\n";
+    EnergyTable rayleigh = table(material, "RAYLEIGH");
+    if (rayleigh.empty()) rayleigh = density_fluctuations(material, name, index);
+    const std::string absorbed = absorption(material, medium);
+    medium.clear = rayleigh.empty() && absorbed == kNoAbsorption && table(material, "MIEHG").empty();
+    medium.toml = medium.index + absorbed;
     medium.toml += rayleigh.empty()
-                       ? "scattering = { none = true }\n"
+                       ? kNoScattering
                        : "scattering = { kind = \"rayleigh\", length = " + curve(rayleigh, "mm") + " }\n";
     if (const Node density = material.child("D")) {
       const double unit = definitions_.number(density, "unit", definitions_.evaluate("g/cm3", density));
@@ -78,6 +85,51 @@ class MaterialImporter {
     add_scintillation(material, medium);
     note_others(material, medium);
     return medium;
+  }
+
+  /// Throws where no energy of the index is one of light: a matrix without units is in MeV.
+  void require_light(Node material, const EnergyTable& index) const {
+    constexpr double kLowest_eV = 0.0124, kHighest_eV = 124.0;  // 100 um to 10 nm
+    const bool of_light = std::any_of(index.energy_eV.begin(), index.energy_eV.end(), [](double energy_eV) {
+      return energy_eV >= kLowest_eV && energy_eV <= kHighest_eV;
+    });
+    if (of_light || index.value.size() < 2) return;
+    file_.reject(material,
+                 fmt::format("its RINDEX is at {:.4g} eV to {:.4g} eV, where light has 0.0124 eV to 124 eV",
+                             index.energy_eV.front(), index.energy_eV.back()),
+                 "an energy without a unit is in MeV: write 3.1*eV in the matrix");
+  }
+
+  /// Lengths of Rayleigh scattering (mm) that Geant4 computes without a RAYLEIGH, for a material called
+  /// "Water" or with an isothermal compressibility (G4OpRayleigh::CalculateRayleighMeanFreePaths of Geant4
+  /// 11, read): scattering by fluctuations of the density, at the photon energies of the index; empty for
+  /// other materials.
+  EnergyTable density_fluctuations(Node material, const std::string& name, const EnergyTable& index) const {
+    constexpr double kBoltzmann_MeV_per_K = 8.617333262e-11;  // CODATA 2018
+    const bool water = name == "Water";
+    // 7.658e-23 m3/MeV at 10 deg Celsius, Geant4's numbers for water.
+    const std::optional<double> compressibility =
+        water ? std::optional(7.658e-23 * 1e9) : constant(material, {"ISOTHERMAL_COMPRESSIBILITY"});
+    if (!compressibility || index.value.size() < 2) return {};
+    double temperature_K = 283.15;
+    if (!water) {
+      const Node stated = material.child("T");
+      constexpr double kNormal_K = 293.15;  // Geant4's NTP_Temperature
+      temperature_K = stated ? definitions_.number(stated, "value") : kNormal_K;
+    }
+    const double strength = constant(material, {"RS_SCALE_FACTOR"}).value_or(1.0) * *compressibility *
+                            temperature_K * kBoltzmann_MeV_per_K / (6.0 * core::kPi);
+    EnergyTable lengths;
+    for (const double energy_eV : refined(index.energy_eV)) {
+      const double n2 = std::pow(interpolated(index, energy_eV), 2);
+      const double wave_number = core::kTwoPi * energy_eV / (core::kHc_eV_nm * 1e-6);  // 1/mm
+      const double contrast = (n2 - 1.0) * (n2 + 2.0) / 3.0;
+      const double per_mm = strength * std::pow(wave_number, 4) * contrast * contrast;
+      if (!(per_mm > 0.0)) continue;
+      lengths.energy_eV.push_back(energy_eV);
+      lengths.value.push_back(1.0 / per_mm);
+    }
+    return lengths;
   }
 
   /// The group index of a GROUPVEL; Geant4 computes its own from RINDEX when that comes later.
@@ -126,7 +178,7 @@ class MaterialImporter {
                                ": as in Geant4 nothing is shifted");
       }
     }
-    const std::string own = for_good.empty() ? "absorption = { none = true }\n"
+    const std::string own = for_good.empty() ? kNoAbsorption
                             : for_good.size() == 1 && !plain.empty()
                                 ? "absorption = { length = " + curve(positive(plain), "mm") + " }\n"
                                 : "absorption = { coefficient = " + curve(sum_of(for_good), "1/mm") + " }\n";
@@ -277,6 +329,11 @@ class MaterialImporter {
     }
     medium.scintillates = true;
     medium.toml += fmt::format("yield = {{ value = \"{:.9g} photons/MeV\" }}\n", *yield);
+    add_resolution(material, *yield, medium);
+    if (different_spectra(parts))
+      medium.notes.push_back(
+          "its components have spectra of their own: they are one spectrum here, in their shares, of which "
+          "time and wavelength of a photon are drawn independently");
     medium.toml += "emission = { spectrum = " + curve_toml(emission, "", 0.0, 0.0) + " }\n";
     medium.toml += "decay = [";
     for (std::size_t i = 0; i < parts.size(); ++i)
@@ -287,6 +344,43 @@ class MaterialImporter {
     if (by_particle.empty()) return;
     medium.toml += "particle_light = [" + by_particle + "]\n";
     medium.notes.push_back("its light by particle, which Geant4 uses after setByParticleType true alone");
+  }
+
+  /// RESOLUTIONSCALE: Geant4's number of photons N = Y E has the width R sqrt(N), here the square of the
+  /// width is N + (s N)^2 with s^2 = (R^2 - 1) / N at an energy, and inversely proportional to the energy.
+  void add_resolution(Node material, double yield_per_MeV, ImportedMedium& medium) const {
+    const std::optional<double> scale = constant(material, {"RESOLUTIONSCALE"});
+    if (!scale || *scale == 1.0) return;
+    if (*scale < 1.0) {
+      medium.notes.push_back(fmt::format(
+          "its RESOLUTIONSCALE of {:.4g}: the number of photons has a width of its root at least, that of 1",
+          *scale));
+      return;
+    }
+    constexpr double kFwhmPerSigma = 2.3548200450309493, kEnergy_keV = 511.0;
+    const double share =
+        kFwhmPerSigma * std::sqrt((*scale * *scale - 1.0) / (1e-3 * yield_per_MeV * kEnergy_keV));
+    if (share >= 1.0) {
+      medium.notes.push_back(fmt::format(
+          "its RESOLUTIONSCALE of {:.4g}, a width at 511 keV beyond the energy itself: left out", *scale));
+      return;
+    }
+    medium.toml += fmt::format(
+        "intrinsic_resolution = {{ fwhm = {:.9g}, energy = \"{:.4g} keV\" }}\n", share, kEnergy_keV);
+  }
+
+  /// Whether components, as they are sampled, differ by more than a factor.
+  static bool different_spectra(const std::vector<Component>& parts) {
+    constexpr double kSame = 1e-3;
+    const EnergyTable& first = parts.front().spectrum;
+    return std::any_of(parts.begin() + 1, parts.end(), [&first](const Component& part) {
+      const double scale = integral(part.spectrum) / integral(first);
+      return std::any_of(first.energy_eV.begin(), first.energy_eV.end(), [&](double energy_eV) {
+        const double expected = scale * interpolated(first, energy_eV);
+        return std::abs(interpolated(part.spectrum, energy_eV) - expected) >
+               kSame * std::max(expected, integral(part.spectrum));
+      });
+    });
   }
 
   void note_others(Node material, ImportedMedium& medium) const {
@@ -307,6 +401,9 @@ class MaterialImporter {
                                                "WLSCOMPONENT2",
                                                "WLSTIMECONSTANT2",
                                                "WLSMEANNUMBERPHOTONS2",
+                                               "RESOLUTIONSCALE",
+                                               "ISOTHERMAL_COMPRESSIBILITY",
+                                               "RS_SCALE_FACTOR",
                                                "MIEHG",
                                                "MIEHG_FORWARD",
                                                "MIEHG_BACKWARD",

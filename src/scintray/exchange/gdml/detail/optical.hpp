@@ -93,6 +93,8 @@ class Substances {
 struct ImportedMedium {
   std::string material;            ///< name in the GDML file
   std::string toml;                ///< the keys of [media.NAME], without the header; empty when opaque
+  std::string index;               ///< of these, its index
+  bool clear = false;              ///< neither absorbs nor scatters light
   bool opaque = false;             ///< no RINDEX: Geant4 stops light that enters it
   bool scintillates = false;       ///< has yield, emission and decay times
   std::vector<std::string> notes;  ///< what was not converted
@@ -102,7 +104,7 @@ struct ImportedMedium {
 /// tables over wavelength, with added points where they are coarse, since linear interpolation over energy is
 /// not linear over wavelength; outside its table Geant4 uses the value at the end, so tables are extended at
 /// constant value over the range of all tables of the file. Absorption from ABSLENGTH, Rayleigh scattering
-/// from RAYLEIGH (none where they are left out), particles from MIEHG, group index from a GROUPVEL that
+/// from RAYLEIGH (without one, from ISOTHERMAL_COMPRESSIBILITY and in "Water", where Geant4 computes it), particles from MIEHG, group index from a GROUPVEL that
 /// follows RINDEX (else Geant4 computes it), scintillation from SCINTILLATIONYIELD, SCINTILLATIONCOMPONENT1-3
 /// and their constants, or their names before Geant4 11, wavelength shifting from WLSABSLENGTH, WLSCOMPONENT,
 /// WLSTIMECONSTANT and WLSMEANNUMBERPHOTONS, and the same with a 2. Spectra: Geant4 samples components per

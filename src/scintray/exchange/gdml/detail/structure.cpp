@@ -31,7 +31,7 @@ class StructureReader {
       file_.reject(file_.section("structure"), "the file does not state which volume is the world",
                    "add <setup name=\"Default\" version=\"1.0\"><world ref=\"...\"/></setup>");
     structure_.world_volume = reference(world);
-    const Node volume = find(structure_.world_volume, world).node;
+    const Node volume = structure_.world = find(structure_.world_volume, world).node;
     structure_.world_material = reference(child(volume, "materialref"));
     structure_.world_solid = reference(child(volume, "solidref"));
     place_daughters(volume, Eigen::Affine3d::Identity(), std::nullopt);

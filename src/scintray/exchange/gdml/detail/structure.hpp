@@ -39,6 +39,7 @@ class Solids;
 
 struct Structure {
   std::string world_volume, world_material, world_solid;
+  Node world;                        ///< its <volume>
   std::vector<std::string> volumes;  ///< names of all <volume>s, by name
   std::vector<PlacedVolume> placed;  ///< mothers before their daughters, without the world
   std::vector<SurfacePlacement> surfaces;
