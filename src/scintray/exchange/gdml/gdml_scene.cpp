@@ -61,8 +61,7 @@ class SceneMaker {
     for (const std::string& note : draft.notes) notes += "#   " + note + "\n";
     draft.toml = "# Made by scintray import from " + file_name + ".\n";
     if (!notes.empty()) draft.toml += "# Not carried over, or different from Geant4:\n" + notes;
-    draft.toml += "title = " + toml_string(file_name) +
-                  "\nambient = " + toml_string(ambient_) +
+    draft.toml += "title = " + toml_string(file_name) + "\nambient = " + toml_string(ambient_) +
                   "  # the material of the world\ncontacts_default = \"each_side\"  # Geant4's rule for skin "
                   "surfaces\n" +
                   parts + contacts + source_table + media_tables() + surface_tables_ + sensor_tables_;
@@ -127,20 +126,25 @@ class SceneMaker {
       if (left_[i] > kNothingLeft || daughters[i] != 1) continue;
       left_out_[i] = true;
       note("volume " + structure_.placed[i].volume +
-           " is filled by its daughter and left out; its surfaces, at which Geant4 has a step of no length, do "
+           " is filled by its daughter and left out; its surfaces, at which Geant4 has a step of no length, "
+           "do "
            "not act");
     }
   }
 
-  /// The box of the world, where light is absorbed or scattered in it: beyond it, where Geant4's light ends,
-  /// the same index goes on, in which nothing happens to light. Sets the ambient medium.
+  /// The box of the world, where a share of the light is absorbed or scattered in it: beyond it, where
+  /// Geant4's light ends, the same index goes on, in which nothing happens to light. Sets the ambient medium.
   std::string world_part() {
     const std::string& material = structure_.world_material;
     ambient_ = medium_name(material);
     const ImportedMedium* medium = find_medium(material);
-    if (structure_.placed.empty() || !medium || medium->opaque || medium->clear ||
-        options_.media.contains(material))
+    if (structure_.placed.empty() || !medium || medium->opaque || options_.media.contains(material))
       return "";
+    constexpr double kClear = 1000.0;  // in sizes of the world: a share of the light below 0.001
+    Eigen::AlignedBox3d box;
+    for (const core::Vec3& corner : solids_.mesh(structure_.world_solid, structure_.world).vertices)
+      box.extend(corner);
+    if (medium->shortest_mm > kClear * box.diagonal().norm()) return "";
     ambient_ = "beyond the world";
     surface_tables_ += "\n[media." + toml_string(ambient_) + "]\n" + medium->index +
                        "absorption = { none = true }\nscattering = { none = true }\n";
@@ -453,7 +457,8 @@ class SceneMaker {
         const PlacedVolume& placed = structure_.placed[i];
         const ImportedMedium* medium = find_medium(placed.material);
         const bool own = medium && !options_.media.contains(placed.material);
-        if (left_out_[i] || left_[i] <= kNothingLeft || is_opaque(placed.material) || (scintillating && !(own && medium->scintillates)))
+        if (left_out_[i] || left_[i] <= kNothingLeft || is_opaque(placed.material) ||
+            (scintillating && !(own && medium->scintillates)))
           continue;
         const std::string wavelength = scintillating ? "emission" : "420 nm";
         return "\n[source]  # an example: a GDML file has none\ntype = \"photons\"\nregion = { part = " +

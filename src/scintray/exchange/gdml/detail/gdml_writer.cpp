@@ -198,10 +198,11 @@ void GdmlWriter::add_scintillation(pugi::xml_node material, const optics::Medium
     parts.resize(kMostComponents);
   }
   add_number(material, "SCINTILLATIONYIELD", 1000.0 * medium.yield_per_keV, "/MeV");
-  add_number(material, "RESOLUTIONSCALE", 1.0);
-  if (medium.intrinsic_fwhm > 0.0)
-    note("medium " + medium.name +
-         ": its intrinsic resolution is left out (RESOLUTIONSCALE 1): the light spreads by counting alone");
+  // Geant4's width R sqrt(N), with R^2 - 1 = s^2 N: both grow as the root of the energy.
+  constexpr double kFwhmPerSigma = 2.3548200450309493;
+  add_number(material, "RESOLUTIONSCALE",
+             std::sqrt(1.0 + std::pow(medium.intrinsic_fwhm / kFwhmPerSigma, 2) * medium.yield_per_keV *
+                                 medium.intrinsic_keV));
   if (!medium.by_particle.empty())
     note("medium " + medium.name +
          ": its light by particle is left out: every particle has that of electrons");

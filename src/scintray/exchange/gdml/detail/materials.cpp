@@ -15,9 +15,6 @@ namespace scintray::exchange::gdml {
 
 namespace {
 
-const std::string kNoAbsorption = "absorption = { none = true }\n";
-const std::string kNoScattering = "scattering = { none = true }\n";
-
 class MaterialImporter {
  public:
   explicit MaterialImporter(const OpticalTables& tables)
@@ -68,11 +65,12 @@ class MaterialImporter {
     medium.index = "index = { n = " + curve(index, "") + group_index(material, medium) + " }\n";
     EnergyTable rayleigh = table(material, "RAYLEIGH");
     if (rayleigh.empty()) rayleigh = density_fluctuations(material, name, index);
-    const std::string absorbed = absorption(material, medium);
-    medium.clear = rayleigh.empty() && absorbed == kNoAbsorption && table(material, "MIEHG").empty();
-    medium.toml = medium.index + absorbed;
+    for (const EnergyTable& lengths : {rayleigh, table(material, "ABSLENGTH"), table(material, "MIEHG"),
+                                       table(material, "WLSABSLENGTH"), table(material, "WLSABSLENGTH2")})
+      for (const double length : lengths.value) medium.shortest_mm = std::min(medium.shortest_mm, length);
+    medium.toml = medium.index + absorption(material, medium);
     medium.toml += rayleigh.empty()
-                       ? kNoScattering
+                       ? "scattering = { none = true }\n"
                        : "scattering = { kind = \"rayleigh\", length = " + curve(rayleigh, "mm") + " }\n";
     if (const Node density = material.child("D")) {
       const double unit = definitions_.number(density, "unit", definitions_.evaluate("g/cm3", density));
@@ -178,7 +176,7 @@ class MaterialImporter {
                                ": as in Geant4 nothing is shifted");
       }
     }
-    const std::string own = for_good.empty() ? kNoAbsorption
+    const std::string own = for_good.empty() ? "absorption = { none = true }\n"
                             : for_good.size() == 1 && !plain.empty()
                                 ? "absorption = { length = " + curve(positive(plain), "mm") + " }\n"
                                 : "absorption = { coefficient = " + curve(sum_of(for_good), "1/mm") + " }\n";
@@ -365,8 +363,8 @@ class MaterialImporter {
           "its RESOLUTIONSCALE of {:.4g}, a width at 511 keV beyond the energy itself: left out", *scale));
       return;
     }
-    medium.toml += fmt::format(
-        "intrinsic_resolution = {{ fwhm = {:.9g}, energy = \"{:.4g} keV\" }}\n", share, kEnergy_keV);
+    medium.toml += fmt::format("intrinsic_resolution = {{ fwhm = {:.9g}, energy = \"{:.4g} keV\" }}\n", share,
+                               kEnergy_keV);
   }
 
   /// Whether components, as they are sampled, differ by more than a factor.

@@ -2,6 +2,7 @@
 /// The optics of a GDML file: its materials as media, its optical surfaces as surface definitions.
 
 #include <initializer_list>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -91,10 +92,11 @@ class Substances {
 
 /// A material as a medium of a scene.
 struct ImportedMedium {
-  std::string material;            ///< name in the GDML file
-  std::string toml;                ///< the keys of [media.NAME], without the header; empty when opaque
-  std::string index;               ///< of these, its index
-  bool clear = false;              ///< neither absorbs nor scatters light
+  std::string material;  ///< name in the GDML file
+  std::string toml;      ///< the keys of [media.NAME], without the header; empty when opaque
+  std::string index;     ///< of these, its index
+  /// Shortest length of absorption, scattering and wavelength shifting at any wavelength; infinite without.
+  double shortest_mm = std::numeric_limits<double>::infinity();
   bool opaque = false;             ///< no RINDEX: Geant4 stops light that enters it
   bool scintillates = false;       ///< has yield, emission and decay times
   std::vector<std::string> notes;  ///< what was not converted
@@ -104,12 +106,13 @@ struct ImportedMedium {
 /// tables over wavelength, with added points where they are coarse, since linear interpolation over energy is
 /// not linear over wavelength; outside its table Geant4 uses the value at the end, so tables are extended at
 /// constant value over the range of all tables of the file. Absorption from ABSLENGTH, Rayleigh scattering
-/// from RAYLEIGH (without one, from ISOTHERMAL_COMPRESSIBILITY and in "Water", where Geant4 computes it), particles from MIEHG, group index from a GROUPVEL that
-/// follows RINDEX (else Geant4 computes it), scintillation from SCINTILLATIONYIELD, SCINTILLATIONCOMPONENT1-3
-/// and their constants, or their names before Geant4 11, wavelength shifting from WLSABSLENGTH, WLSCOMPONENT,
-/// WLSTIMECONSTANT and WLSMEANNUMBERPHOTONS, and the same with a 2. Spectra: Geant4 samples components per
-/// energy, S(E); here one spectrum per wavelength, sum of f_i S_i(E) / int S_i dE times dE/dwavelength = E^2
-/// / (h c). Between two points of a spectrum S is their mean, as Geant4 samples it.
+/// from RAYLEIGH (without one, from ISOTHERMAL_COMPRESSIBILITY and in "Water", where Geant4 computes it),
+/// particles from MIEHG, group index from a GROUPVEL that follows RINDEX (else Geant4 computes it),
+/// scintillation from SCINTILLATIONYIELD, SCINTILLATIONCOMPONENT1-3 and their constants, or their names
+/// before Geant4 11, wavelength shifting from WLSABSLENGTH, WLSCOMPONENT, WLSTIMECONSTANT and
+/// WLSMEANNUMBERPHOTONS, and the same with a 2. Spectra: Geant4 samples components per energy, S(E); here one
+/// spectrum per wavelength, sum of f_i S_i(E) / int S_i dE times dE/dwavelength = E^2 / (h c). Between two
+/// points of a spectrum S is their mean, as Geant4 samples it.
 std::vector<ImportedMedium> import_materials(const OpticalTables& tables);
 
 /// { wavelength = [...], ... } of a table, or its one number when it has one value only; extended at constant
