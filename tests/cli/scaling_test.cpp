@@ -5,6 +5,7 @@
 #include "cli/dark_crystal.hpp"
 #include "cli/program.hpp"
 #include "scintray/cli/exit_codes.hpp"
+#include "scintray/core/file_lock.hpp"
 #include "scintray/results/results.hpp"
 #include "support/same_results.hpp"
 #include "support/shared.hpp"
@@ -254,6 +255,11 @@ TEST_CASE("report shows what a run that goes on, or was killed, has finished so 
   CHECK_FALSE(std::filesystem::exists(folder / "out.h5"));
   check_refused({"report", "."}, folder, {"no checkpoints in this folder", "NAME.checkpoints"});
   check_refused({"report", "none.h5"}, folder, {"none.h5"});
+  {
+    const auto held = core::claim_output(folder / "begun.h5");
+    REQUIRE(held.has_value());
+    check_refused({"report", "begun.h5"}, folder, {"there is no checkpoint yet"});
+  }
   check_done(run_short(kLong, {"-o", "out.h5", "--resume"}, folder));  // nothing of it was changed
 }
 

@@ -3,6 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
+#include <set>
+#include <string>
 
 #include "scintray/cli/check.hpp"
 #include "scintray/cli/interrupt.hpp"
@@ -23,11 +25,16 @@ struct CheckOptions {
 };
 
 void print_source(const source::LightSource& source, const scene::Scene& scene) {
-  const std::vector<core::RegionId> origins = source.regions();
+  std::set<std::string> origins;  // a small region is given in pieces
+  std::string first;
+  for (const core::RegionId id : source.regions()) {
+    if (first.empty()) first = scene.region_names[id];
+    origins.insert(scene.region_names[id]);
+  }
   std::cout << "\nsource: "
             << (source.has_energy() ? fmt::format("{} events, light", source.events())
                                     : fmt::format("{} photons", source.photons()))
-            << " from \"" << scene.region_names[origins.front()] << "\"";
+            << " from \"" << first << "\"";
   if (origins.size() > 1)
     std::cout << " and " << origins.size() - 1 << " more part" << (origins.size() > 2 ? "s" : "");
   std::cout << "\n";

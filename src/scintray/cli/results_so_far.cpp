@@ -4,6 +4,7 @@
 #include <string>
 
 #include "scintray/core/error.hpp"
+#include "scintray/core/file_lock.hpp"
 #include "scintray/simulation/checkpoints.hpp"
 #include "scintray/simulation/results_file.hpp"
 
@@ -48,11 +49,25 @@ std::filesystem::path checkpoints_of(const std::filesystem::path& named) {
   return goes_on ? beside : std::filesystem::path();
 }
 
+/// @throws InputError for a results file that another process has begun, and of which it has kept nothing
+void refuse_before_first_checkpoint(const std::filesystem::path& named) {
+  std::error_code ignored;
+  if (std::filesystem::exists(named, ignored) || !core::is_being_written(named)) return;
+  throw core::InputError(
+      {{named.string()},
+       "its run has begun, and there is no checkpoint yet",
+       "try again later; --checkpoint-every 10s keeps what is finished more often than once "
+       "a minute"});
+}
+
 }  // namespace
 
 ReadableResults::ReadableResults(const std::filesystem::path& named) : path_(named), finished_(named) {
   const std::filesystem::path checkpoints = checkpoints_of(named);
-  if (checkpoints.empty()) return;
+  if (checkpoints.empty()) {
+    refuse_before_first_checkpoint(named);
+    return;
+  }
   const std::vector<std::filesystem::path> files = simulation::range_files(checkpoints);
   if (files.empty())
     throw core::InputError(

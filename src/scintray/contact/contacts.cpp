@@ -78,8 +78,12 @@ void refuse_overlaps(const std::vector<PlacedPart>& parts, const std::vector<Ove
                     a.name, b.name, common.exact ? "" : "about ", common.volume_mm3, how, common.inside.x(),
                     common.inside.y(), common.inside.z(), also_at(b.name, b.where, a.where)),
         fmt::format("move one of them, or give the one that is to keep the space a higher priority; faces "
-                    "meant to touch may miss each other by the contact tolerance, {:.3g} mm",
-                    tolerance_mm),
+                    "meant to touch may miss each other by the contact tolerance, {:.3g} mm{}",
+                    tolerance_mm,
+                    a.supports.empty() && b.supports.empty()
+                        ? ""
+                        : "; round parts are compared by their facets: give both the same number of segments "
+                          "and the same turn about their axis, or more segments"),
         {{common.inside.x(), common.inside.y(), common.inside.z()}});
   }
   problems.throw_if_any();

@@ -77,12 +77,31 @@ std::optional<FileLock> FileLock::try_take(const std::filesystem::path& file) {
   }
 }
 
-std::optional<FileLock> claim_output(const std::filesystem::path& path) {
-  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  const std::string name = path.filename().string();
+namespace {
+
+std::filesystem::path folder_of(const std::filesystem::path& path) {
+  return path.has_parent_path() ? path.parent_path() : ".";
+}
+
+std::filesystem::path lock_of(const std::filesystem::path& path) {
+  return folder_of(path) / ("." + path.filename().string() + ".lock");
+}
+
+}  // namespace
+
+bool is_being_written(const std::filesystem::path& path) {
+  std::error_code ignored;
   try {
-    if (std::optional<FileLock> taken = FileLock::try_take(folder / ("." + name + ".lock"))) {
-      remove_unfinished(folder, name);
+    return std::filesystem::exists(lock_of(path), ignored) && !FileLock::try_take(lock_of(path));
+  } catch (const SystemError&) {
+    return false;
+  }
+}
+
+std::optional<FileLock> claim_output(const std::filesystem::path& path) {
+  try {
+    if (std::optional<FileLock> taken = FileLock::try_take(lock_of(path))) {
+      remove_unfinished(folder_of(path), path.filename().string());
       return taken;
     }
   } catch (const SystemError&) {

@@ -34,4 +34,7 @@ class FileLock {
 /// @throws InputError when another process holds it
 [[nodiscard]] std::optional<FileLock> claim_output(const std::filesystem::path& path);
 
+/// Whether a process has claimed this output, and goes on.
+bool is_being_written(const std::filesystem::path& path);
+
 }  // namespace scintray::core

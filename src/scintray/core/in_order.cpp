@@ -1,7 +1,11 @@
 #include "scintray/core/in_order.hpp"
 
+#include <tbb/global_control.h>
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <optional>
 
 #include <vector>
 
@@ -102,6 +106,12 @@ std::uint64_t work_in_order(std::uint64_t count, int threads, const std::atomic<
                             const std::function<std::shared_ptr<void>(std::uint64_t)>& work,
                             const std::function<void(std::uint64_t, void*)>& collect) {
   constexpr std::size_t kPiecesPerThread = 4;
+  // More threads than the machine has processors are made on request only.
+  constexpr auto kThreads = tbb::global_control::max_allowed_parallelism;
+  std::optional<tbb::global_control> more;
+  if (const auto wanted = static_cast<std::size_t>(std::max(threads, 0));
+      wanted > tbb::global_control::active_value(kThreads))
+    more.emplace(kThreads, wanted);
   tbb::task_arena arena(threads > 0 ? threads : tbb::this_task_arena::max_concurrency());
   const std::size_t most_under_way = kPiecesPerThread * static_cast<std::size_t>(arena.max_concurrency());
   Stages stages(count, most_under_way, stop, work, collect);
