@@ -231,9 +231,8 @@ bool determine_torus(const SupportSurface& torus, const std::vector<core::Vec3>&
   const double rounding = 4.0 * tolerance_mm + 1e-6 * minor;
   const AngleSpan circle(std::move(around), rounding / torus.major),
       tube(std::move(in_tube), rounding / minor);
-  const double least = kLeastBend * tolerance_mm;
-  return tube.distinct >= kFewestInTube && circle.distinct >= kFewestAbout && tube.bend(minor) >= least &&
-         circle.bend(torus.major) >= least;
+  return tube.distinct >= kFewestInTube && circle.distinct >= kFewestAbout &&
+         tube.bend(minor) >= kLeastBend * tolerance_mm && circle.bend(torus.major) >= tolerance_mm;
 }
 
 }  // namespace scintray::mesh
