@@ -48,8 +48,10 @@ struct BentTube {
   }
 };
 
+int photons() { return law_photons(160'000); }
+
 /// Number of photons that escape from a part, started evenly in it.
-double escaped_from(const std::string& part) {
+double escaped_from(const std::string& part, bool exact = true) {
   const Traced traced = trace("ambient = \"vacuum_n1\"\n" + part + R"([media.glass_5]
 index = { n = 1.5 }
 absorption = { length = "5 mm" }
@@ -63,17 +65,19 @@ type = "photons"
 wavelength = "420 nm"
 polarisation = "unpolarised"
 region = { part = "body" }
-photons = )" + std::to_string(law_photons(40'000)) +
+photons = )" + std::to_string(photons()) +
                               "\n");
   CHECK(traced.built.scene.parts.front().facets_because == "");
-  CHECK(traced.built.scene.parts.front().curved);
+  CHECK(traced.built.scene.parts.front().curved == exact);
   CHECK(traced.result.count(Fate::escaped) + traced.result.count(Fate::absorbed_in_medium) ==
-        static_cast<std::uint64_t>(law_photons(40'000)));
+        static_cast<std::uint64_t>(photons()));
   return static_cast<double>(traced.result.count(Fate::escaped));
 }
 
-void check_same(double count, double expected) {
-  CHECK(std::abs(count - expected) < kSigmas * std::sqrt(count + expected));
+/// Standard deviations between two numbers of photons.
+double sigmas_between(double count, double other) {
+  const double share = 0.5 * (count + other) / photons();
+  return std::abs(count - other) / std::sqrt(2.0 * photons() * share * (1.0 - share));
 }
 
 }  // namespace
@@ -84,10 +88,14 @@ TEST_CASE(
   const double whole = escaped_from(
       "[[part]]\nname = \"body\"\ntorus = { radius = \"3 mm\", tube_radius = \"1 mm\" }\nmedium = "
       "\"glass_5\"\nsurface = \"flat\"\n");
-  check_same(escaped_from(BentTube{kTwoPi, 0.0, 24, 16}.part()), whole);
-  check_same(escaped_from(BentTube{kPi, 0.0, 12, 16}.part()), whole);
-  check_same(escaped_from(BentTube{kPi, 0.0, 36, 72}.part()), whole);
+  CHECK(sigmas_between(escaped_from(BentTube{kTwoPi, 0.0, 24, 16}.part()), whole) < kSigmas);
+  CHECK(sigmas_between(escaped_from(BentTube{kPi, 0.0, 12, 16}.part()), whole) < kSigmas);
+  CHECK(sigmas_between(escaped_from(BentTube{kPi, 0.0, 36, 72}.part()), whole) < kSigmas);
+  // Facets let out a tenth more: a face that is not recognized would be seen.
+  std::string facets = BentTube{kPi, 0.0, 12, 16}.part();
+  facets.erase(facets.find("curved = \"recognize\"\n"), std::string("curved = \"recognize\"\n").size());
+  CHECK(sigmas_between(escaped_from(facets, false), whole) > 10.0);
   const double hollow = escaped_from(BentTube{kTwoPi, 0.7}.part());
-  CHECK(std::abs(hollow - whole) > 10.0 * std::sqrt(hollow + whole));
-  check_same(escaped_from(BentTube{kPi, 0.7, 12, 16}.part()), hollow);
+  CHECK(sigmas_between(hollow, whole) > 10.0);
+  CHECK(sigmas_between(escaped_from(BentTube{kPi, 0.7, 12, 16}.part()), hollow) < kSigmas);
 }
