@@ -70,6 +70,7 @@ bool has_torus(const TriMesh& mesh) {
 }
 
 std::size_t facets_left(const TriMesh& mesh) {
+  if (mesh.support.empty()) return mesh.triangles.size();
   return static_cast<std::size_t>(std::count(mesh.support.begin(), mesh.support.end(), kNoSupport));
 }
 
@@ -240,6 +241,24 @@ TEST_CASE("What is no torus, or not within the tolerance, is not recognized as o
     recognize_round_faces(oval, kTorusTolerance);
     CHECK_FALSE(has_torus(oval));
   }
+
+  // Small pieces of an ellipsoid of three axes are within 0.1 um of tori.
+  TriMesh ellipsoid = make_sphere(1.0, 24);
+  ellipsoid.supports.clear();
+  ellipsoid.support.clear();
+  for (Vec3& vertex : ellipsoid.vertices) vertex = vertex.cwiseProduct(Vec3(1.0, 2.0, 3.0));
+  recognize_round_faces(ellipsoid, 1e-4);
+  CHECK_FALSE(has_torus(ellipsoid));
+  // And strips of them, facets of like size between two of its sections, of cones.
+  TorusOutline half;
+  for (int i = -36; i <= 36; ++i)
+    half.emplace_back(std::abs(i) == 36 ? 0.0 : 2.0 * std::cos(kPi * i / 72), 3.0 * std::sin(kPi * i / 72));
+  TriMesh sections = revolved(half, {0.0, kTwoPi, 72});
+  for (Vec3& vertex : sections.vertices) vertex.x() *= 0.5;
+  recognize_round_faces(sections, 1e-4);
+  CHECK_FALSE(has_torus(sections));
+  CHECK(sections.triangles.size() - facets_left(sections) <
+        48);  // one piece at a pole is within 0.1 um of a cone
 
   // One that crosses itself.
   TriMesh apple;

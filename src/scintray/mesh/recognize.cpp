@@ -28,6 +28,9 @@ constexpr std::array<std::size_t, 3> kSeeds = {12, 48, 200};
 /// Ratios of areas up to which flat pieces are alike, as those of one face mostly are: any, and less and
 /// less.
 constexpr std::array kAlike = {HUGE_VAL, 3.0, 1.01};
+/// Fewest triangles of a face that is found from alike ones: a strip of a few facets of any smooth face lies
+/// close to a cone.
+constexpr std::size_t kFewestOfAlike = 48;
 /// Flat regions without a result after which the search of a mesh ends, since its faces have other forms;
 /// and starts without one.
 constexpr int kMostFailures = 64, kMostStarts = 1024;
@@ -187,6 +190,7 @@ class Recognizer {
         const double other = piece_areas_[piece_[t]];
         return other <= ratio * area && area <= ratio * other;
       });
+      if (ratio < HUGE_VAL && best.triangles.size() < kFewestOfAlike) best = {};
       if (!best.triangles.empty()) break;
     }
     return best;

@@ -23,7 +23,7 @@ struct RecognizedFace {
 /// surface that covers most triangles is taken, of cylinder, cone, torus and sphere the first where they
 /// cover the same, then the rest is searched again. A face needs six corners and facets of at least three
 /// directions; a sphere a corner inside the face; a torus eight corners, at five angles in its tube and three
-/// about its axis.
+/// about its axis, along 60 degrees of one of the two.
 ///
 /// A prism with twelve sides or more is a cylinder to this function, since no mesh states which is meant:
 /// use it on request only, and report what it found.

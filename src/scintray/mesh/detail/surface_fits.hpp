@@ -42,8 +42,9 @@ std::optional<SupportSurface> fit_torus(const FacetPatch& patch, double toleranc
 
 /// Whether corners determine a torus on which they lie. They are at five angles in its tube or more, since
 /// three rings about an axis lie on one, and four, too, that are mirror images; at three angles about its
-/// axis, since two sections of a tube determine neither the axis nor the radius to first order; and their
-/// arcs bend by 20 tolerances (mm) in the tube, and by one along its circle, below which it is a cylinder.
+/// axis, since two sections of a tube determine neither the axis nor the radius to first order; and along 60
+/// degrees of one of the two, since a torus lies close to a small piece of any smooth surface. Their arcs
+/// bend by 20 tolerances (mm) in the tube, and by one along its circle, below which it is a cylinder.
 bool determine_torus(const SupportSurface& torus, const std::vector<core::Vec3>& corners,
                      double tolerance_mm);
 

@@ -14,6 +14,8 @@ constexpr int kTorusSteps = 60;
 constexpr std::size_t kFewestOfTorus = 8;
 /// Fewest angles of corners in the tube, and about the axis.
 constexpr std::size_t kFewestInTube = 5, kFewestAbout = 3;
+/// Least angle of the longer arc: a torus lies close to a few facets of any smooth surface.
+constexpr double kLeastTurn = 60.0 * core::kDegree;
 /// Change of a fit, as a share of its size, below which it has converged.
 constexpr double kConverged = 1e-14;
 
@@ -231,6 +233,7 @@ bool determine_torus(const SupportSurface& torus, const std::vector<core::Vec3>&
   const double rounding = 4.0 * tolerance_mm + 1e-6 * minor;
   const AngleSpan circle(std::move(around), rounding / torus.major),
       tube(std::move(in_tube), rounding / minor);
+  if (std::max(tube.extent, circle.extent) < kLeastTurn) return false;
   return tube.distinct >= kFewestInTube && circle.distinct >= kFewestAbout &&
          tube.bend(minor) >= kLeastBend * tolerance_mm && circle.bend(torus.major) >= tolerance_mm;
 }
