@@ -257,3 +257,33 @@ TEST_CASE("GDML: tori, ellipsoids of revolution, paraboloids and hyperboloids ke
     CHECK(built.scene.parts.front().volume_mm3 == doctest::Approx(c.volume).epsilon(1e-9));
   }
 }
+
+TEST_CASE("GDML: hollow tori and sectors of tori are exact, recognized in their meshes") {
+  // Sectors of less than a segment of others, of half a turn, whose ends are in one plane, and of more than
+  // half a turn, where the planes of the ends cross the rest.
+  for (const double extent : {0.08, 1.0, kPi, 5.0, kTwoPi})
+    for (const double inner : {0.0, 0.05, 0.6, 0.98}) {
+      if (extent == kTwoPi && inner == 0.0) continue;  // a shape of the scene file
+      CAPTURE(extent);
+      CAPTURE(inner);
+      gdml::GdmlImport options;
+      options.mesh_folder = "meshes";
+      const auto file = scratch_folder("gdml_tori") / "scene.toml";
+      const std::string text =
+          fmt::format(R"(<torus name="it" rmin="{}" rmax="1" rtor="5" startphi="0.4" deltaphi="{:.17g}"/>)",
+                      inner, extent);
+      const SceneDraft draft = gdml::draft_of_gdml(gdml_solid(text).text(), "test.gdml", options);
+      CHECK(draft.toml.find("curved = \"recognize\"") != std::string::npos);
+      write_scene_draft(draft, file);
+      const scene::BuiltScene built = scene::SceneBuilder().build(scene_file::SceneFile::load(file).spec(0));
+      CHECK(built.scene.parts.front().facets_because == "");
+      CHECK(built.scene.parts.front().curved);
+      // Pappus: the length of the circle in the middle times the section's area, and its outline.
+      const double length = 5.0 * extent, ends = extent < kTwoPi ? 2.0 : 0.0;
+      const double section = kPi * (1.0 - inner * inner);
+      CHECK(built.scene.parts.front().volume_mm3 == doctest::Approx(length * section).epsilon(1e-7));
+      double area = 0.0;
+      for (const scene::FaceInfo& face : built.scene.faces) area += face.area_mm2;
+      CHECK(area == doctest::Approx(length * kTwoPi * (1.0 + inner) + ends * section).epsilon(1e-6));
+    }
+}

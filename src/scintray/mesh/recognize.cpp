@@ -1,6 +1,5 @@
 #include "scintray/mesh/recognize.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "scintray/mesh/detail/edges.hpp"
+#include "scintray/mesh/detail/surface_fits.hpp"
 
 namespace scintray::mesh {
 
@@ -25,41 +25,52 @@ constexpr std::size_t kFewestCorners = 6;
 constexpr int kFewestDirections = 3;
 /// Sizes of the neighbourhoods to which a first surface is fitted, in triangles.
 constexpr std::array<std::size_t, 3> kSeeds = {12, 48, 200};
-/// Starts without a result after which the search of a mesh ends: its faces have other forms.
-constexpr int kMostFailures = 64;
+/// Ratios of areas up to which flat pieces are alike, as those of one face mostly are: any, and less and
+/// less.
+constexpr std::array kAlike = {HUGE_VAL, 3.0, 1.01};
+/// Fewest triangles of a face that is found from alike ones: a strip of a few facets of any smooth face lies
+/// close to a cone.
+constexpr std::size_t kFewestOfAlike = 48;
+/// Flat regions without a result after which the search of a mesh ends, since its faces have other forms;
+/// and starts without one.
+constexpr int kMostFailures = 64, kMostStarts = 1024;
 /// Rounds of growth and fit of a face.
 constexpr int kMostRounds = 8;
-/// Least thickness of a round face, in tolerances.
-constexpr double kLeastBend = 20.0;
-/// Steps of the Gauss-Newton method, which converges within a few where the surface fits.
-constexpr int kSteps = 12;
 
-/// Cylinder or cone by its axis, and the radius along it: radius + slope z.
-struct Wall {
-  core::Vec3 origin, axis;
-  double radius, slope;
-};
+/// Kinds of surfaces, in the order in which they are preferred where they cover the same facets. Corners on
+/// two circles about an axis lie on a sphere, too, and facets from one to the other are a wall's; those on
+/// two sections of a bent tube lie on one, which is why a sphere needs a corner inside of its face.
+enum class RoundKind { wall, torus, sphere };
+constexpr std::array kRoundKinds = {RoundKind::wall, RoundKind::torus, RoundKind::sphere};
 
 class Recognizer {
  public:
-  Recognizer(TriMesh& mesh, double tolerance_mm) : mesh_(mesh), tolerance_(tolerance_mm), neighbours_(mesh) {
+  Recognizer(TriMesh& mesh, double tolerance_mm)
+      : mesh_(mesh), tolerance_(tolerance_mm), neighbours_(mesh), facets_at_(mesh.vertices.size(), 0) {
     const std::size_t count = mesh_.triangles.size();
     mesh_.support.resize(count, kNoSupport);
     for (std::size_t t = 0; t < count; ++t) {
       const core::Vec3 area = mesh_.area_vector(t);
       areas_.push_back(area.norm());
       normals_.push_back(areas_.back() > 0.0 ? core::Vec3(area / areas_.back()) : core::Vec3::Zero());
+      for (const std::uint32_t v : mesh_.triangles[t]) ++facets_at_[v];
     }
+    find_flat_pieces();
   }
 
   std::vector<RecognizedFace> run() {
     std::vector<RecognizedFace> found;
-    int failures = 0;
-    for (std::size_t t = 0; t < mesh_.triangles.size() && failures < kMostFailures; ++t) {
+    int failures = 0, starts = 0;
+    std::vector<char> failed(piece_areas_.size(), 0);
+    for (std::size_t t = 0; t < mesh_.triangles.size() && failures < kMostFailures && starts < kMostStarts;
+         ++t) {
       if (mesh_.support[t] != kNoSupport || !bends(t)) continue;
-      const Candidate best = best_from(t);
+      const Candidate best = best_from(static_cast<std::uint32_t>(t));
       if (best.triangles.empty()) {
-        ++failures;
+        // A flat face with many facets along a round one is one failure.
+        ++starts;
+        if (!failed[piece_[t]]) ++failures;
+        failed[piece_[t]] = 1;
         continue;
       }
       RecognizedFace face;
@@ -106,8 +117,39 @@ class Recognizer {
   }
 
   bool lies_on(const SupportSurface& surface, std::uint32_t t) const {
-    const core::Vec3 normal = surface.normal(centre_of(mesh_, t));
-    return farthest(surface, t) <= tolerance_ && std::abs(normals_[t].dot(normal)) >= std::cos(kMostTilted);
+    if (!(farthest(surface, t) <= tolerance_)) return false;
+    core::Vec3 normal = core::Vec3::Zero();
+    if (surface.is_torus()) {
+      // Of a thin one, the middle of a facet is beyond the tube.
+      for (const std::uint32_t v : mesh_.triangles[t]) normal += surface.normal(mesh_.vertices[v]);
+      normal.normalize();
+    } else {
+      normal = surface.normal(centre_of(mesh_, t));
+    }
+    return std::abs(normals_[t].dot(normal)) >= std::cos(kMostTilted);
+  }
+
+  /// Numbers the connected sets of triangles in one plane, and adds up their areas.
+  void find_flat_pieces() {
+    piece_.assign(mesh_.triangles.size(), kNoSupport);
+    for (std::uint32_t first = 0; first < piece_.size(); ++first) {
+      if (piece_[first] != kNoSupport) continue;
+      const auto number = static_cast<std::uint32_t>(piece_areas_.size());
+      piece_areas_.push_back(0.0);
+      std::vector<std::uint32_t> todo{first};
+      piece_[first] = number;
+      while (!todo.empty()) {
+        const std::uint32_t t = todo.back();
+        todo.pop_back();
+        piece_areas_.back() += areas_[t];
+        for (const std::uint32_t* next = neighbours_.begin(t); next != neighbours_.end(t); ++next) {
+          if (piece_[*next] != kNoSupport || angle_between(normals_[first], normals_[*next]) > kFlattestEdge)
+            continue;
+          piece_[*next] = number;
+          todo.push_back(*next);
+        }
+      }
+    }
   }
 
   /// Free triangles of the smooth face around one, nearest first, as long as `admit` accepts them.
@@ -137,22 +179,37 @@ class Recognizer {
     return points;
   }
 
-  Candidate best_from(std::size_t seed) {
+  /// The surface that covers most facets from one on. First surfaces are fitted to the facets around it;
+  /// where none fits, to those of these that are alike: long facets of a wall lead to those beyond its ends
+  /// at once.
+  Candidate best_from(std::uint32_t start) {
+    const double area = piece_areas_[piece_[start]];
     Candidate best;
-    const auto start = static_cast<std::uint32_t>(seed);
+    for (const double ratio : kAlike) {
+      best = best_from(start, ratio < HUGE_VAL ? kSeeds.front() : 1, [&](std::uint32_t t) {
+        const double other = piece_areas_[piece_[t]];
+        return other <= ratio * area && area <= ratio * other;
+      });
+      if (ratio < HUGE_VAL && best.triangles.size() < kFewestOfAlike) best = {};
+      if (!best.triangles.empty()) break;
+    }
+    return best;
+  }
+
+  template <class Admit>
+  Candidate best_from(std::uint32_t start, std::size_t fewest, const Admit& admit) {
+    Candidate best;
     std::size_t before = 0;
     for (const std::size_t most : kSeeds) {
-      const std::vector<std::uint32_t> near = around(start, most, [](std::uint32_t) { return true; });
-      if (near.size() == before) break;
+      const std::vector<std::uint32_t> near = around(start, most, admit);
+      if (near.size() == before || near.size() < fewest) break;
       before = near.size();
       bool fitted = false;
-      // Corners on two circles about an axis lie on a sphere, too; facets from one to the other are a wall's.
-      // A sphere has to take in more of the face.
-      for (const bool sphere : {false, true}) {
-        const std::optional<SupportSurface> surface = fit(near, sphere);
+      for (const RoundKind kind : kRoundKinds) {
+        const std::optional<SupportSurface> surface = fit(near, kind, nullptr);
         if (!surface) continue;
         fitted = true;
-        const std::optional<Candidate> grown = grow(start, *surface, sphere);
+        const std::optional<Candidate> grown = grow(start, *surface, kind);
         if (grown && grown->triangles.size() > best.triangles.size()) best = *grown;
       }
       // What does not fit a few facets does not fit more, unless these do not determine it.
@@ -162,7 +219,7 @@ class Recognizer {
   }
 
   /// The part of the smooth face that lies on a surface, which is fitted again as it grows.
-  std::optional<Candidate> grow(std::uint32_t start, const SupportSurface& first, bool sphere) {
+  std::optional<Candidate> grow(std::uint32_t start, const SupportSurface& first, RoundKind kind) {
     std::optional<SupportSurface> surface = first;
     Candidate result;
     for (int round = 0; round < kMostRounds; ++round) {
@@ -172,11 +229,26 @@ class Recognizer {
       if (triangles.size() < result.triangles.size()) break;
       const bool grows = triangles.size() > result.triangles.size();
       result = {*surface, std::move(triangles)};
-      surface = fit(result.triangles, sphere);
+      surface = fit(result.triangles, kind, &result.surface);
       if (!surface || (!grows && round > 0)) break;
     }
-    if (!is_determined(result.triangles)) return std::nullopt;
-    return result;
+    return is_determined(result, kind) ? std::optional(result) : std::nullopt;
+  }
+
+  bool is_determined(const Candidate& candidate, RoundKind kind) const {
+    if (!is_determined(candidate.triangles)) return false;
+    if (kind == RoundKind::torus)
+      return determine_torus(candidate.surface, corners_of(candidate.triangles), tolerance_);
+    return kind == RoundKind::wall || has_inner_corner(candidate.triangles);
+  }
+
+  /// Whether a corner has no facets but these.
+  bool has_inner_corner(const std::vector<std::uint32_t>& triangles) const {
+    std::vector<std::uint32_t> uses(facets_at_.size(), 0);
+    for (const std::uint32_t t : triangles)
+      for (const std::uint32_t v : mesh_.triangles[t])
+        if (++uses[v] == facets_at_[v]) return true;
+    return false;
   }
 
   bool is_determined(const std::vector<std::uint32_t>& triangles) const {
@@ -192,176 +264,27 @@ class Recognizer {
     return false;
   }
 
-  std::optional<SupportSurface> fit(const std::vector<std::uint32_t>& triangles, bool sphere) const {
-    const std::vector<core::Vec3> points = corners_of(triangles);
-    if (points.size() < kFewestCorners) return std::nullopt;
-    if (sphere) return fit_sphere(points);
-    const std::optional<SupportSurface> cylinder = fit_wall(triangles, points, false);
-    return cylinder ? cylinder : fit_wall(triangles, points, true);
-  }
-
-  static core::Vec3 mean_of(const std::vector<core::Vec3>& points) {
-    core::Vec3 sum = core::Vec3::Zero();
-    for (const core::Vec3& p : points) sum += p;
-    return sum / static_cast<double>(points.size());
-  }
-
-  /// |p - c|^2 = r^2 is linear in c and r^2 - |c|^2.
-  std::optional<SupportSurface> fit_sphere(const std::vector<core::Vec3>& points) const {
-    const core::Vec3 mean = mean_of(points);
-    Eigen::MatrixXd left(static_cast<Eigen::Index>(points.size()), 4);
-    Eigen::VectorXd right(left.rows());
-    for (Eigen::Index i = 0; i < left.rows(); ++i) {
-      const core::Vec3 p = points[static_cast<std::size_t>(i)] - mean;
-      left.row(i) << 2.0 * p.transpose(), 1.0;
-      right[i] = p.squaredNorm();
+  std::optional<SupportSurface> fit(const std::vector<std::uint32_t>& triangles, RoundKind kind,
+                                    const SupportSurface* before) const {
+    const FacetPatch patch{mesh_, normals_, areas_, triangles, corners_of(triangles)};
+    if (patch.corners.size() < kFewestCorners) return std::nullopt;
+    switch (kind) {
+      case RoundKind::wall:
+        return fit_wall(patch, tolerance_);
+      case RoundKind::torus:
+        return fit_torus(patch, tolerance_, before);
+      case RoundKind::sphere:
+        break;
     }
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> solver(left);
-    if (solver.rank() < 4) return std::nullopt;
-    const Eigen::VectorXd solution = solver.solve(right);
-    const core::Vec3 centre = solution.head<3>();
-    const double radius2 = solution[3] + centre.squaredNorm();
-    if (!(radius2 > 0.0)) return std::nullopt;
-    const SupportSurface result = SupportSurface::sphere(mean + centre, std::sqrt(radius2));
-    return fits(result, points, tolerance_) ? std::optional(result) : std::nullopt;
-  }
-
-  /// Axis to which all facets have one angle (cone) or a right angle (cylinder).
-  core::Vec3 axis_of(const std::vector<std::uint32_t>& triangles, bool cone) const {
-    core::Vec3 mean = core::Vec3::Zero();
-    double area = 0.0;
-    for (const std::uint32_t t : triangles) {
-      mean += areas_[t] * normals_[t];
-      area += areas_[t];
-    }
-    mean = cone ? core::Vec3(mean / area) : core::Vec3::Zero();
-    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-    for (const std::uint32_t t : triangles) {
-      const core::Vec3 d = normals_[t] - mean;
-      covariance += areas_[t] * d * d.transpose();
-    }
-    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvectors().col(0);
-  }
-
-  std::optional<SupportSurface> fit_wall(const std::vector<std::uint32_t>& triangles,
-                                         const std::vector<core::Vec3>& points, bool cone) const {
-    const core::Vec3 mean = mean_of(points);
-    std::optional<Wall> wall = first_wall(points, mean, axis_of(triangles, cone), cone);
-    // The axis of facets whose corners are on the surface is exact, and poorly known from few rings of
-    // corners: it is turned only where it does not fit.
-    for (int step = 0; wall && step < kSteps; ++step) wall = improved(points, *wall, {cone, false});
-    if (!wall) return std::nullopt;
-    if (const std::optional<SupportSurface> exact = surface_of(*wall, points, 0.1 * tolerance_)) return exact;
-    for (int step = 0; wall && step < kSteps; ++step) wall = improved(points, *wall, {cone, true});
-    return wall ? surface_of(*wall, points, tolerance_) : std::nullopt;
-  }
-
-  std::optional<SupportSurface> surface_of(const Wall& wall, const std::vector<core::Vec3>& points,
-                                           double tolerance_mm) const {
-    double low = HUGE_VAL, high = -HUGE_VAL;
-    for (const core::Vec3& p : points) {
-      const double z = wall.axis.dot(p - wall.origin);
-      low = std::min(low, z);
-      high = std::max(high, z);
-    }
-    SupportSurface result = SupportSurface::cylinder(wall.origin, wall.axis, wall.radius);
-    if (wall.slope != 0.0) {
-      // From the wider end, where the radius is above zero.
-      const double at = wall.slope > 0.0 ? high : low, to = wall.slope > 0.0 ? low : high;
-      const double radius = wall.radius + wall.slope * at;
-      const double end = std::max(0.0, wall.radius + wall.slope * to);
-      if (!(radius > 0.0) || end == radius) return std::nullopt;
-      const double length = (end - radius) / wall.slope;
-      result = SupportSurface::cone(wall.origin + at * wall.axis, wall.axis, radius, end, length);
-    }
-    return fits(result, points, tolerance_mm) ? std::optional(result) : std::nullopt;
-  }
-
-  /// |p|^2 = 2 p . c + a + b z + g z^2 across the axis is linear, with radius^2 = a + |c|^2 and
-  /// b = 2 radius slope.
-  static std::optional<Wall> first_wall(const std::vector<core::Vec3>& points, const core::Vec3& mean,
-                                        const core::Vec3& axis, bool cone) {
-    const core::Vec3 x = axis.unitOrthogonal(), y = axis.cross(x);
-    Eigen::MatrixXd left(static_cast<Eigen::Index>(points.size()), cone ? 5 : 3);
-    Eigen::VectorXd right(left.rows());
-    for (Eigen::Index i = 0; i < left.rows(); ++i) {
-      const core::Vec3 p = points[static_cast<std::size_t>(i)] - mean;
-      const double px = x.dot(p), py = y.dot(p), z = axis.dot(p);
-      left(i, 0) = 2.0 * px;
-      left(i, 1) = 2.0 * py;
-      left(i, 2) = 1.0;
-      if (cone) {
-        left(i, 3) = z;
-        left(i, 4) = z * z;
-      }
-      right[i] = px * px + py * py;
-    }
-    // Of two rings z and z^2 are not independent: the least solution does as a start.
-    const Eigen::VectorXd s = left.completeOrthogonalDecomposition().solve(right);
-    const double radius2 = s[2] + s[0] * s[0] + s[1] * s[1];
-    if (!(radius2 > 0.0) || !std::isfinite(radius2)) return std::nullopt;
-    const double radius = std::sqrt(radius2);
-    return Wall{mean + s[0] * x + s[1] * y, axis, radius, cone ? s[3] / (2.0 * radius) : 0.0};
-  }
-
-  using Vector6 = Eigen::Matrix<double, 6, 1>;
-  using Matrix6 = Eigen::Matrix<double, 6, 6>;
-
-  /// What the Gauss-Newton method may change.
-  struct Free {
-    bool slope, axis;
-  };
-
-  /// One step of the Gauss-Newton method on the distances across the axis.
-  static std::optional<Wall> improved(const std::vector<core::Vec3>& points, const Wall& wall, Free free) {
-    const core::Vec3 x = wall.axis.unitOrthogonal(), y = wall.axis.cross(x);
-    // Normal equations: of large faces a matrix of all slopes takes more memory than the mesh.
-    Vector6 slope, sums = Vector6::Zero();
-    Matrix6 products = Matrix6::Zero();
-    for (const core::Vec3& point : points) {
-      const core::Vec3 p = point - wall.origin;
-      const double px = x.dot(p), py = y.dot(p), z = wall.axis.dot(p), rho = std::hypot(px, py);
-      // The tip of a cone has no direction across the axis.
-      const double cosine = rho > 0.0 ? px / rho : 0.0, sine = rho > 0.0 ? py / rho : 0.0;
-      const double off = rho - wall.radius - wall.slope * z;
-      // Rotating the axis by small angles towards x and y subtracts z from the distance, and adds to z. For
-      // what is not free, zero change is the least-norm solution.
-      const double turn = free.axis ? 1.0 : 0.0;
-      slope << -cosine, -sine, -turn * (z * cosine + wall.slope * px), -turn * (z * sine + wall.slope * py),
-          -1.0, free.slope ? -z : 0.0;
-      products += slope * slope.transpose();
-      sums -= off * slope;
-    }
-    const Vector6 change = products.completeOrthogonalDecomposition().solve(sums);
-    if (!change.allFinite()) return std::nullopt;
-    Wall next = wall;
-    next.origin += change[0] * x + change[1] * y;
-    next.axis = (wall.axis + change[2] * x + change[3] * y).normalized();
-    next.radius += change[4];
-    next.slope += change[5];
-    return next.radius > 0.0 ? std::optional(next) : std::nullopt;
-  }
-
-  /// Whether the points lie on the surface, and bend by more than they may be off it, as those of a plane do
-  /// not, which is a sphere of any large radius.
-  bool fits(const SupportSurface& surface, const std::vector<core::Vec3>& points, double tolerance_mm) const {
-    for (const core::Vec3& p : points)
-      if (!(std::abs(surface.distance(p)) <= tolerance_mm)) return false;
-    const core::Vec3 mean = mean_of(points);
-    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-    for (const core::Vec3& p : points) covariance += (p - mean) * (p - mean).transpose();
-    const core::Vec3 thin = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvectors().col(0);
-    double low = 0.0, high = 0.0;
-    for (const core::Vec3& p : points) {
-      low = std::min(low, thin.dot(p - mean));
-      high = std::max(high, thin.dot(p - mean));
-    }
-    return high - low >= kLeastBend * tolerance_;
+    return fit_sphere(patch, tolerance_);
   }
 
   TriMesh& mesh_;
   double tolerance_;
   TriangleNeighbours neighbours_;
+  std::vector<std::uint32_t> piece_;  ///< flat piece of each triangle
+  std::vector<double> piece_areas_;
+  std::vector<std::uint32_t> facets_at_;  ///< number of triangles at each corner
   std::vector<double> areas_;
   std::vector<core::Vec3> normals_;
   std::vector<std::uint32_t> visited_;
@@ -376,12 +299,18 @@ std::vector<RecognizedFace> recognize_round_faces(TriMesh& mesh, double toleranc
 
 std::string describe(const TriMesh& mesh, const RecognizedFace& face) {
   const SupportSurface& surface = mesh.supports[face.support];
-  const bool cone = surface.axial < 0.0;
-  char text[160];
-  std::snprintf(text, sizeof text, "%s of %s %.6g %s recognized in %zu triangles, corners within %.2g um",
-                surface.name(), cone ? "half-angle" : "radius",
-                cone ? std::atan(std::sqrt(-surface.axial)) / core::kDegree : std::sqrt(surface.radius2),
-                cone ? "deg" : "mm", face.triangles, 1e3 * face.corner_distance_mm);
+  const double radius = std::sqrt(surface.radius2);
+  char size[80];
+  if (surface.is_torus())
+    std::snprintf(size, sizeof size, "radii %.6g mm and %.6g mm", surface.major, radius);
+  else if (surface.axial < 0.0)
+    std::snprintf(size, sizeof size, "half-angle %.6g deg",
+                  std::atan(std::sqrt(-surface.axial)) / core::kDegree);
+  else
+    std::snprintf(size, sizeof size, "radius %.6g mm", radius);
+  char text[200];
+  std::snprintf(text, sizeof text, "%s of %s recognized in %zu triangles, corners within %.2g um",
+                surface.name(), size, face.triangles, 1e3 * face.corner_distance_mm);
   return text;
 }
 

@@ -15,15 +15,15 @@ struct RecognizedFace {
   double corner_distance_mm = 0.0;     ///< largest distance of one of their corners from the surface
 };
 
-/// Spheres, cylinders and cones among the faces of a mesh; sets the support surface of their triangles.
+/// Spheres, cylinders, cones and tori among the faces of a mesh; sets the support surface of their triangles.
 /// Triangles that have one already keep it.
 ///
 /// Adjacent facets at 30 degrees or less to each other belong to one smooth face. A surface is fitted to
-/// neighbouring facets and grows over the smooth face as long as corners lie on it: a sphere by linear least
-/// squares, a cylinder or cone from the axis to which all facets have the same angle (the eigenvector of
-/// least eigenvalue of the covariance of their normals), both improved by the Gauss-Newton method. The
-/// surface that covers most triangles is taken, then the rest is searched again. A face needs six corners and
-/// facets of at least three directions.
+/// neighbouring facets (mesh/detail/surface_fits.hpp) and grows over the smooth face as long as corners lie
+/// on it. The surface that covers most triangles is taken, of cylinder, cone, torus and sphere the first
+/// where they cover the same, then the rest is searched again. A face needs six corners and facets of at
+/// least three directions; a sphere a corner inside the face; a torus eight corners, at five angles in its
+/// tube and three about its axis, along 60 degrees of one of the two.
 ///
 /// A prism with twelve sides or more is recognized as a cylinder, since a mesh does not state which is
 /// intended: callers use this function on request only, and report the result.
@@ -31,7 +31,7 @@ struct RecognizedFace {
 std::vector<RecognizedFace> recognize_round_faces(TriMesh& mesh, double tolerance_mm);
 
 /// A sentence on a recognized face: "cylinder of radius 1.5 mm recognized in 128 triangles, corners within
-/// 0.012 um".
+/// 0.012 um"; of a torus both radii, of its circle first, and of a cone the half-angle.
 std::string describe(const TriMesh& mesh, const RecognizedFace& face);
 
 }  // namespace scintray::mesh

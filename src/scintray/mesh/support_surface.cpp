@@ -225,11 +225,15 @@ PatchExcess patch_excess(const SupportSurface& surface, const std::array<core::V
 double segment_area(const SupportSurface& surface, const core::Vec3& normal, const core::Vec3& a,
                     const core::Vec3& b) {
   constexpr double kUpright = 1e-9;
-  if (!surface.is_sphere() && surface.axis.cross(normal).norm() > kUpright) return 0.0;
-  const core::Vec3 to_a = a - surface.origin, to_b = b - surface.origin;
+  const bool in_tube = surface.is_torus() && std::abs(surface.axis.dot(normal)) <= kUpright &&
+                       std::abs(normal.dot(a - surface.origin)) <= kUpright * surface.major;
+  if (!in_tube && !surface.is_sphere() && surface.axis.cross(normal).norm() > kUpright) return 0.0;
+  const core::Vec3 centre = in_tube ? surface.middle(a) : surface.origin.vec();
+  const core::Vec3 to_a = a - centre, to_b = b - centre;
   const core::Vec3 ra = to_a - normal.dot(to_a) * normal, rb = to_b - normal.dot(to_b) * normal;
   const double cross = ra.cross(rb).norm(), dot = ra.dot(rb);
-  return 0.5 * (std::atan2(cross, dot) * ra.norm() * rb.norm() - cross);
+  const double area = 0.5 * (std::atan2(cross, dot) * ra.norm() * rb.norm() - cross);
+  return normal.cross(b - a).dot(centre - a) > 0.0 ? area : -area;
 }
 
 FacetDeviation facet_deviation(const SupportSurface& surface, const std::array<core::Vec3, 3>& triangle) {

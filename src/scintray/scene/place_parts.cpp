@@ -117,7 +117,7 @@ class PartPlacer {
     for (const mesh::RecognizedFace& face : found) part.notes.push_back(mesh::describe(part.mesh, face));
     if (found.empty())
       part.notes.push_back(
-          "no sphere, cylinder or cone recognized: corners are farther than the contact tolerance "
+          "no sphere, cylinder, cone or torus recognized: corners are farther than the contact tolerance "
           "from one, or neighbouring facets have angles above 30 degrees");
   }
 

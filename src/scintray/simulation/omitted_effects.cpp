@@ -127,9 +127,9 @@ void add_facets(const scene::BuiltScene& built, std::vector<OmittedEffect>& effe
     effects.push_back(effect("the true surface of round faces", known.text(), Figures::fraction,
                              "scintray check lists them with the reason why facets stay"));
   if (unknown.count > 0)
-    effects.push_back(
-        effect("the true surface of smooth faces of meshes", unknown.text(), Figures::fraction,
-               "curved = \"recognize\" of a mesh of triangles, where they are spheres, cylinders or cones"));
+    effects.push_back(effect(
+        "the true surface of smooth faces of meshes", unknown.text(), Figures::fraction,
+        "curved = \"recognize\" of a mesh of triangles, where they are spheres, cylinders, cones or tori"));
 }
 
 }  // namespace

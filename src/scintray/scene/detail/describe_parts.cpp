@@ -70,9 +70,7 @@ class CurveDescription {
         if (round == supports.end()) continue;
         const mesh::SupportSurface& surface = geometry_.supports[round->second];
         const core::Vec3 &a_from = geometry_.vertices[from], &a_to = geometry_.vertices[to];
-        const core::Vec3 inwards = normal.cross(a_to - a_from);  // across the chord, into the triangle
-        const bool around_centre = inwards.dot(surface.origin - a_from) > 0.0;
-        const double area = mesh::segment_area(surface, normal, a_from, a_to) * (around_centre ? 1.0 : -1.0);
+        const double area = mesh::segment_area(surface, normal, a_from, a_to);
         FaceInfo& face = faces_[geometry_.face[t]];
         face.area_mm2 += area;
         face.area_vector_mm2 += area * normal;

@@ -17,6 +17,10 @@ class RoundSolid : public SolidReader {
  public:
   using SolidReader::SolidReader;
 
+  /// Fewest segments of part of a torus or ball: two sections alone do not determine its surface, by which it
+  /// is recognized.
+  static constexpr int kFewestBent = 2;
+
   std::optional<mesh::TriMesh> make() const {
     struct Kind {
       std::string_view name;
@@ -41,21 +45,22 @@ class RoundSolid : public SolidReader {
   }
 
  private:
-  mesh::Turn turn(double radius_mm) const {
+  /// @param least_of_part  fewest segments of less than a full turn
+  mesh::Turn turn(double radius_mm, int least_of_part = 1) const {
     constexpr double kRounding = 1e-9;
     mesh::Turn result;
     result.start_rad = angle("startphi");
     result.extent_rad = std::min(angle("deltaphi", core::kTwoPi), core::kTwoPi);
     if (result.extent_rad >= core::kTwoPi - kRounding) result.extent_rad = core::kTwoPi;
     const bool full = result.extent_rad == core::kTwoPi;
-    result.segments = segments_about(radius_mm, result.extent_rad, full ? 3 : 1);
+    result.segments = segments_about(radius_mm, result.extent_rad, full ? 3 : least_of_part);
     return result;
   }
 
-  mesh::TriMesh revolve(const Outline& outline) const {
+  mesh::TriMesh revolve(const Outline& outline, int least_of_part = 1) const {
     double largest = 0.0;
     for (const Eigen::Vector2d& corner : outline) largest = std::max(largest, corner.x());
-    return mesh::revolved(outline, turn(largest));
+    return mesh::revolved(outline, turn(largest, least_of_part));
   }
 
   /// Corners on circles around the flats of a polyhedron's sides.
@@ -145,7 +150,7 @@ class RoundSolid : public SolidReader {
       back = mesh::arc({0.0, 0.0}, inner, inner, 0.5 * core::kPi - theta_low, 0.5 * core::kPi - theta_high,
                        tessellation_);
     outline.insert(outline.end(), back.begin(), back.end());
-    return revolve(outline);
+    return revolve(outline, kFewestBent);
   }
 
   mesh::TriMesh sphere() const {
@@ -161,8 +166,9 @@ class RoundSolid : public SolidReader {
     if (!(swept > outer)) mesh::reject_shape("rtor is not above rmax: the torus would cross itself");
     Outline circle = mesh::arc({swept, 0.0}, outer, outer, 0.0, core::kTwoPi, tessellation_);
     circle.pop_back();
-    if (inner > 0.0 && turn(swept).extent_rad < core::kTwoPi) return hollow_bend(inner, outer, swept);
-    mesh::TriMesh body = revolve(circle);
+    if (inner > 0.0 && turn(swept, kFewestBent).extent_rad < core::kTwoPi)
+      return hollow_bend(inner, outer, swept);
+    mesh::TriMesh body = revolve(circle, kFewestBent);
     if (inner <= 0.0) return body;
     Outline hole = mesh::arc({swept, 0.0}, inner, inner, 0.0, core::kTwoPi, tessellation_);
     hole.pop_back();
@@ -173,7 +179,7 @@ class RoundSolid : public SolidReader {
 
   /// Part of a hollow torus.
   mesh::TriMesh hollow_bend(double inner, double outer, double swept) const {
-    const mesh::Turn along = turn(swept + outer);
+    const mesh::Turn along = turn(swept + outer, kFewestBent);
     const int around = mesh::arc_segments(outer, core::kTwoPi, tessellation_, 3);
     return mesh::mapped_cube({along.segments, around, 1}, {false, true, false}, [&](const core::Vec3& at) {
       const double phi = along.start_rad + at.x() * along.extent_rad, angle = core::kTwoPi * at.y();

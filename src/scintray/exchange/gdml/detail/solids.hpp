@@ -31,8 +31,8 @@ class Solids {
   /// supported, has impossible dimensions, or is a boolean of itself.
   const mesh::TriMesh& mesh(const std::string& name, Node where);
 
-  /// Whether the mesh of a solid has spheres, cylinders or cones that can be recognized in it. Solids whose
-  /// flat sides are intended, polyhedra and the like, and booleans with one of these are not searched.
+  /// Whether the mesh of a solid has spheres, cylinders, cones or tori that can be recognized in it. Solids
+  /// whose flat sides are intended, polyhedra and the like, and booleans with one of these are not searched.
   bool is_round(const std::string& name, Node where);
 
   /// The line of a [[part]] with a shape of scene files that is a solid exactly, where its faces would not be
