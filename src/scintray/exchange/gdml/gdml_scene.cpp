@@ -12,7 +12,6 @@
 #include "scintray/exchange/gdml/detail/optical.hpp"
 #include "scintray/exchange/gdml/detail/solids.hpp"
 #include "scintray/exchange/gdml/detail/structure.hpp"
-#include "scintray/exchange/gdml/detail/volumes_left.hpp"
 #include "scintray/mesh/shapes/primitives.hpp"
 
 namespace scintray::exchange::gdml {
@@ -37,13 +36,14 @@ class SceneMaker {
         definitions_(file),
         tables_(file, definitions_),
         solids_(file, definitions_, options.tessellation),
-        structure_(read_structure(file, definitions_, solids_)) {}
+        structure_(read_structure(file, definitions_, solids_)),
+        neighbours_(structure_) {}
 
   SceneDraft make(const std::string& file_name) {
     read_media();
     name_parts();
     leave_out_filled();
-    find_copies_and_skins();
+    find_skins();
     find_sensors();
     std::string parts = world_part();
     for (std::size_t i = 0; i < structure_.placed.size(); ++i) {
@@ -193,15 +193,7 @@ class SceneMaker {
     left_out_.assign(names_.size(), false);
   }
 
-  void find_copies_and_skins() {
-    for (std::size_t i = 0; i < structure_.placed.size(); ++i) {
-      const PlacedVolume& placed = structure_.placed[i];
-      Copies& copies = copies_[placed.physvol];
-      if (!copies.all.empty() && placed.placement != structure_.placed[copies.all.front()].placement)
-        continue;
-      copies.all.push_back(i);
-      copies.by_mother[placed.mother].push_back(i);
-    }
+  void find_skins() {
     for (const SurfacePlacement& surface : structure_.surfaces)
       if (!surface.volume.empty()) skins_.try_emplace(surface.volume, &surface);
   }
@@ -274,36 +266,6 @@ class SceneMaker {
     return found == skins_.end() ? nullptr : found->second;
   }
 
-  /// The copies of a physical volume, in rising order.
-  struct Copies {
-    std::vector<std::size_t> all;
-    std::map<std::optional<std::size_t>, std::vector<std::size_t>> by_mother;
-  };
-
-  /// The copies of the physical volume of a name: of several of one name the first, as G4PhysicalVolumeStore
-  /// returns it.
-  const Copies& copies_of(const std::string& physvol) const {
-    static const Copies none;
-    const auto found = copies_.find(physvol);
-    return found == copies_.end() ? none : found->second;
-  }
-
-  /// Calls visit(a, b) for all copies a of a physical volume and b of another that may touch: a mother and
-  /// her daughter, or two daughters of one mother.
-  void visit_neighbours(const Copies& from, const Copies& to,
-                        const std::function<void(std::size_t, std::size_t)>& visit) const {
-    if (from.all.size() > to.all.size())
-      return visit_neighbours(to, from, [&visit](std::size_t b, std::size_t a) { visit(a, b); });
-    for (const std::size_t a : from.all) {
-      const std::optional<std::size_t> mother = structure_.placed[a].mother;
-      if (mother && std::binary_search(to.all.begin(), to.all.end(), *mother)) visit(a, *mother);
-      for (const std::optional<std::size_t>& of : {std::optional(a), mother})
-        if (const auto found = to.by_mother.find(of); found != to.by_mother.end())
-          for (const std::size_t b : found->second)
-            if (a != b) visit(a, b);
-    }
-  }
-
   /// [[contact]]s of all borders, with the surfaces of both directions.
   std::string border_contacts() {
     constexpr std::size_t kMostPairs = 1'000'000;
@@ -312,18 +274,21 @@ class SceneMaker {
     for (const SurfacePlacement& surface : structure_.surfaces) {
       if (!surface.volume.empty()) continue;
       bool used = false;
-      visit_neighbours(copies_of(surface.from), copies_of(surface.to), [&](std::size_t a, std::size_t b) {
-        if (left_out_[a] || left_out_[b]) return;
-        if (++visited > kMostPairs)
-          file_.reject(surface.element,
-                       "more than " + std::to_string(kMostPairs) + " pairs of volumes have a border surface",
-                       "a border surface between copies in one mother is for each pair of them; use a skin "
-                       "surface, or place the copies in mothers of their own");
-        used = true;
-        auto& both = pairs.try_emplace(std::minmax(a, b)).first->second;
-        const SurfacePlacement*& own = both[a < b ? 0 : 1];
-        if (!own) own = &surface;
-      });
+      neighbours_.visit(
+          neighbours_.copies_of(surface.from), neighbours_.copies_of(surface.to),
+          [&](std::size_t a, std::size_t b) {
+            if (left_out_[a] || left_out_[b]) return;
+            if (++visited > kMostPairs)
+              file_.reject(
+                  surface.element,
+                  "more than " + std::to_string(kMostPairs) + " pairs of volumes have a border surface",
+                  "a border surface between copies in one mother is for each pair of them; use a skin "
+                  "surface, or place the copies in mothers of their own");
+            used = true;
+            auto& both = pairs.try_emplace(std::minmax(a, b)).first->second;
+            const SurfacePlacement*& own = both[a < b ? 0 : 1];
+            if (!own) own = &surface;
+          });
       if (!used)
         note("border surface " + surface.property +
              ": it is not between two volumes of which one is in the "
@@ -363,8 +328,8 @@ class SceneMaker {
       const std::string efficiency = efficiency_of(surface);
       if (efficiency.empty()) continue;
       if (surface.volume.empty()) {
-        const Copies& behind = copies_of(surface.to);
-        for (const std::size_t i : behind.all.empty() ? copies_of(surface.from).all : behind.all)
+        const Neighbours::Copies& behind = neighbours_.copies_of(surface.to);
+        for (const std::size_t i : behind.all.empty() ? neighbours_.copies_of(surface.from).all : behind.all)
           give(i, surface, efficiency);
         continue;
       }
@@ -478,10 +443,10 @@ class SceneMaker {
   OpticalTables tables_;
   Solids solids_;
   Structure structure_;
+  Neighbours neighbours_;
   SceneDraft draft_;
   std::map<std::string, ImportedMedium> media_;
   std::vector<std::string> names_;
-  std::map<std::string, Copies> copies_;                  ///< by the name of the physical volume
   std::map<std::string, const SurfacePlacement*> skins_;  ///< by the name of the volume
   std::set<std::string> noted_;
   std::vector<bool> left_out_;

@@ -125,6 +125,10 @@ std::string curve_toml(const EnergyTable& table, const std::string& unit, double
 /// particle type.
 std::string particle_light(const OpticalTables& tables, Node material);
 
+/// Adds what the material's scintillation has to its medium: yield, resolution, emission, decay times and
+/// light by particle.
+void add_scintillation(const OpticalTables& tables, Node material, ImportedMedium& medium);
+
 struct ImportedSurface {
   std::string toml;        ///< the keys of [surfaces.NAME]; empty when it cannot be converted
   std::string gap_index;   ///< of a gap with dispersion, the medium gap_name(surface); else empty

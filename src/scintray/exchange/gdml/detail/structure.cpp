@@ -1,10 +1,13 @@
 #include "scintray/exchange/gdml/detail/structure.hpp"
 
-#include <map>
+#include <algorithm>
+#include <cmath>
 #include <set>
 
+#include "scintray/core/error.hpp"
 #include "scintray/core/words.hpp"
 #include "scintray/exchange/gdml/detail/copies.hpp"
+#include "scintray/exchange/gdml/detail/solids.hpp"
 
 namespace scintray::exchange::gdml {
 
@@ -186,6 +189,56 @@ class StructureReader {
 
 Structure read_structure(const GdmlFile& file, const Definitions& definitions, Solids& solids) {
   return StructureReader(file, definitions, solids).read();
+}
+
+std::vector<double> shares_left(const Structure& structure, Solids& solids) {
+  std::vector<double> shares;
+  for (const PlacedVolume& placed : structure.placed) {
+    double volume_mm3 = 0.0;
+    try {
+      volume_mm3 = std::abs(placed.to_world.linear().determinant()) *
+                   solids.mesh(placed.solid, placed.element).volume();
+    } catch (const core::InputError&) {
+      // Stated where its part is made.
+    }
+    shares.push_back(volume_mm3);
+  }
+  std::vector<double> taken(shares.size(), 0.0);
+  for (std::size_t i = 0; i < shares.size(); ++i)
+    if (const auto& mother = structure.placed[i].mother) taken[*mother] += shares[i];
+  for (std::size_t i = 0; i < shares.size(); ++i)
+    shares[i] = shares[i] > 0.0 ? std::max(0.0, 1.0 - taken[i] / shares[i]) : 1.0;
+  return shares;
+}
+
+Neighbours::Neighbours(const Structure& structure) : structure_(structure) {
+  for (std::size_t i = 0; i < structure_.placed.size(); ++i) {
+    const PlacedVolume& placed = structure_.placed[i];
+    Copies& copies = copies_[placed.physvol];
+    if (!copies.all.empty() && placed.placement != structure_.placed[copies.all.front()].placement) continue;
+    copies.all.push_back(i);
+    copies.by_mother[placed.mother].push_back(i);
+  }
+}
+
+const Neighbours::Copies& Neighbours::copies_of(const std::string& physvol) const {
+  static const Copies none;
+  const auto found = copies_.find(physvol);
+  return found == copies_.end() ? none : found->second;
+}
+
+void Neighbours::visit(const Copies& from, const Copies& to,
+                       const std::function<void(std::size_t, std::size_t)>& visitor) const {
+  if (from.all.size() > to.all.size())
+    return visit(to, from, [&visitor](std::size_t b, std::size_t a) { visitor(a, b); });
+  for (const std::size_t a : from.all) {
+    const std::optional<std::size_t> mother = structure_.placed[a].mother;
+    if (mother && std::binary_search(to.all.begin(), to.all.end(), *mother)) visitor(a, *mother);
+    for (const std::optional<std::size_t>& of : {std::optional(a), mother})
+      if (const auto found = to.by_mother.find(of); found != to.by_mother.end())
+        for (const std::size_t b : found->second)
+          if (a != b) visitor(a, b);
+  }
 }
 
 }  // namespace scintray::exchange::gdml

@@ -2,6 +2,8 @@
 /// The placed volumes of a GDML file.
 
 #include <Eigen/Geometry>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -53,5 +55,36 @@ struct Structure {
 /// than kMostPlaced volumes.
 /// @param solids  receives those of copies with dimensions of their own
 Structure read_structure(const GdmlFile& file, const Definitions& definitions, Solids& solids);
+
+/// Share of each placed volume that is outside of its daughters, which are taken to be inside their mother
+/// and not in each other, as Geant4 requires; 1 where a solid cannot be made.
+std::vector<double> shares_left(const Structure& structure, Solids& solids);
+
+/// Shares up to this are rounding.
+inline constexpr double kNothingLeft = 1e-9;
+
+/// The placed volumes by the names of their physical volumes, and which of them may touch.
+class Neighbours {
+ public:
+  /// @param structure  must outlive this
+  explicit Neighbours(const Structure& structure);
+
+  /// The copies of a physical volume, in rising order.
+  struct Copies {
+    std::vector<std::size_t> all;
+    std::map<std::optional<std::size_t>, std::vector<std::size_t>> by_mother;
+  };
+  /// The copies of the physical volume of a name: of several of one name the first, as G4PhysicalVolumeStore
+  /// returns it.
+  const Copies& copies_of(const std::string& physvol) const;
+  /// Calls visitor(a, b) for all copies a of a physical volume and b of another that may touch: a mother and
+  /// her daughter, or two daughters of one mother.
+  void visit(const Copies& from, const Copies& to,
+             const std::function<void(std::size_t, std::size_t)>& visitor) const;
+
+ private:
+  const Structure& structure_;
+  std::map<std::string, Copies> copies_;
+};
 
 }  // namespace scintray::exchange::gdml
