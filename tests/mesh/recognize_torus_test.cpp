@@ -85,9 +85,10 @@ void make_noisy(TriMesh& mesh, double most_mm) {
 
 TEST_CASE("A full torus of triangles is recognized, coarse or fine") {
   // Facets of 12 sections are at up to 30.9 degrees to each other round a tube of 12 sides.
-  for (const auto& [segments, tube_segments] :
+  for (const auto& sides :
        {std::pair{12, 14}, std::pair{13, 17}, std::pair{72, 36}, std::pair{24, 72}, std::pair{200, 100}})
     for (const double minor : {0.02, 1.0, 4.5}) {
+      const int segments = sides.first, tube_segments = sides.second;
       CAPTURE(segments);
       CAPTURE(tube_segments);
       CAPTURE(minor);
