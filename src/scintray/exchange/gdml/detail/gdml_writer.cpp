@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "scintray/core/error.hpp"
+#include "scintray/core/statistics.hpp"
 #include "scintray/core/units.hpp"
 
 namespace scintray::exchange::gdml {
@@ -199,9 +200,8 @@ void GdmlWriter::add_scintillation(pugi::xml_node material, const optics::Medium
   }
   add_number(material, "SCINTILLATIONYIELD", 1000.0 * medium.yield_per_keV, "/MeV");
   // Geant4's width R sqrt(N), with R^2 - 1 = s^2 N: both grow as the root of the energy.
-  constexpr double kFwhmPerSigma = 2.3548200450309493;
   add_number(material, "RESOLUTIONSCALE",
-             std::sqrt(1.0 + std::pow(medium.intrinsic_fwhm / kFwhmPerSigma, 2) * medium.yield_per_keV *
+             std::sqrt(1.0 + std::pow(medium.intrinsic_fwhm / core::kFwhmPerSigma, 2) * medium.yield_per_keV *
                                  medium.intrinsic_keV));
   if (!medium.by_particle.empty())
     note("medium " + medium.name +

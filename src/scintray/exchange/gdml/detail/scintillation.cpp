@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "scintray/core/statistics.hpp"
 #include "scintray/core/units.hpp"
 #include "scintray/exchange/gdml/detail/optical.hpp"
 
@@ -109,9 +110,9 @@ class ScintillationImporter {
           *scale));
       return;
     }
-    constexpr double kFwhmPerSigma = 2.3548200450309493, kEnergy_keV = 511.0;
+    constexpr double kEnergy_keV = 511.0;
     const double share =
-        kFwhmPerSigma * std::sqrt((*scale * *scale - 1.0) / (1e-3 * yield_per_MeV * kEnergy_keV));
+        core::kFwhmPerSigma * std::sqrt((*scale * *scale - 1.0) / (1e-3 * yield_per_MeV * kEnergy_keV));
     if (share >= 1.0) {
       medium.notes.push_back(fmt::format(
           "its RESOLUTIONSCALE of {:.4g}, a width at 511 keV beyond the energy itself: left out", *scale));
