@@ -196,11 +196,83 @@ segments = 12 })") +
     if (face.name.starts_with("tube:")) area += face.area_mm2;
   CHECK(area == doctest::Approx(2.0 * kPi * 3.0 * 5.0 + 2.0 * kPi * 3.0).epsilon(1e-12));
   const PartInfo& lens = *(built.scene.parts.begin() + 1);
-  // A cylinder of the edge's height less the cap of the sphere; of a part of a ball, to the facets' angle
-  // squared.
+  // A cylinder of the edge's height less the cap of the sphere.
   const double depth = 5.0 - std::sqrt(21.0);
   CHECK(lens.volume_mm3 ==
-        doctest::Approx(kPi * 4.0 * (1.0 + depth) - kPi * depth * depth * (5.0 - depth / 3.0)).epsilon(1e-4));
+        doctest::Approx(kPi * 4.0 * (1.0 + depth) - kPi * depth * depth * (5.0 - depth / 3.0)).epsilon(1e-6));
+}
+
+TEST_CASE("The box around a part is that of the exact body, cut, hollow or turned") {
+  const std::string turn = "surface = \"flat\"\nrotate = { axis = [1, 0, 0], angle = \"30 deg\" }\n";
+  struct Case {
+    std::string shape, rest;
+    Vec3 low, high;
+  };
+  const double s30 = 0.5, c30 = std::sqrt(0.75), depth = 5.0 - std::sqrt(21.0);
+  const std::string flat = "surface = \"flat\"\n";
+  for (
+      const Case& c :
+      {Case{R"(tube = { outer_radius = "2 mm", inner_radius = "1.5 mm", height = "3 mm", segments = 10 })",
+            flat,
+            {-2, -2, 0},
+            {2, 2, 3}},
+       Case{R"(cylinder = { radius = "2 mm", height = "3 mm", segments = 10 })",
+            turn,
+            {-2, -2.0 * c30 - 3.0 * s30, -2.0 * s30},
+            {2, 2.0 * c30, 3.0 * c30 + 2.0 * s30}},
+       Case{R"(torus = { radius = "3 mm", tube_radius = "1 mm", segments = 16, tube_segments = 12 })",
+            turn,
+            {-4, -3.0 * c30 - 1.0, -3.0 * s30 - 1.0},
+            {4, 3.0 * c30 + 1.0, 3.0 * s30 + 1.0}},
+       Case{R"(spheroid = { radius = "1 mm", half_height = "2 mm", subdivisions = 3 })",
+            turn,
+            {-1, -std::hypot(c30, 2.0 * s30), -std::hypot(s30, 2.0 * c30)},
+            {1, std::hypot(c30, 2.0 * s30), std::hypot(s30, 2.0 * c30)}},
+       // Concave above, with a bulge below.
+       Case{
+           R"(lens = { diameter = "4 mm", thickness = "1 mm", bottom_radius = "5 mm", top_radius = "-5 mm", segments = 14 })",
+           flat,
+           {-2, -2, 0},
+           {2, 2, 1.0 + depth}},
+       Case{"box = [\"2 mm\", \"4 mm\", \"3 mm\"]\nrounding = \"0.3 mm\"",
+            turn,
+            {-1.0, -1.7 * c30 - 1.2 * s30 - 0.3, -1.7 * s30 - 1.2 * c30 - 0.3},
+            {1.0, 1.7 * c30 + 1.2 * s30 + 0.3, 1.7 * s30 + 1.2 * c30 + 0.3}}}) {
+    CAPTURE(c.shape);
+    const BuiltScene built = build(spec_of(part("body", c.shape, "n15", c.rest), "body"));
+    const PartInfo& body = built.scene.parts.front();
+    CHECK(body.curved);
+    // A rounded box stands about its middle or on the origin: sizes are compared.
+    const Vec3 size = c.high - c.low;
+    for (int axis = 0; axis < 3; ++axis)
+      CHECK(body.bounds.sizes()[axis] == doctest::Approx(size[axis]).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("Areas of contacts end on the circles of exact bodies, and faces beside them, too") {
+  const BuiltScene built = build(spec_of(
+      part("window", R"(box = { low = ["-3 mm", "-3 mm", "-1 mm"], high = ["3 mm", "3 mm", "0 mm"] })") +
+          part("cladding", R"(cylinder = { radius = "2 mm", height = "5 mm", segments = 12 })") +
+          part("core", R"(cylinder = { radius = "1 mm", height = "5 mm", segments = 9 })", "lso_clear"),
+      "core"));
+  const auto area = [&](const std::string& back, const std::string& front) {
+    double sum = 0.0;
+    for (const core::InterfaceId id : built.scene.interfaces.ids()) {
+      const Interface& interface = built.scene.interfaces[id];
+      const std::string names[] = {built.scene.region_names[interface.back],
+                                   built.scene.region_names[interface.front]};
+      if ((names[0] == back && names[1] == front) || (names[0] == front && names[1] == back))
+        sum += built.scene.interface_area_mm2[id];
+    }
+    return sum;
+  };
+  const std::string ambient = built.scene.region_names[kAmbientRegion];
+  CHECK(area("core", "window") == doctest::Approx(kPi).epsilon(1e-12));
+  CHECK(area("cladding", "window") == doctest::Approx(3.0 * kPi).epsilon(1e-12));
+  CHECK(area(ambient, "window") == doctest::Approx(2.0 * 36.0 + 24.0 - 4.0 * kPi).epsilon(1e-12));
+  CHECK(area("core", "cladding") == doctest::Approx(10.0 * kPi).epsilon(1e-12));
+  CHECK(area("core", ambient) == doctest::Approx(kPi).epsilon(1e-12));
+  CHECK(area("cladding", ambient) == doctest::Approx(20.0 * kPi + 3.0 * kPi).epsilon(1e-12));
 }
 
 TEST_CASE("Volumes and areas of round parts are those of closed forms, whatever their facets") {

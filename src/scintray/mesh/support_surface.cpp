@@ -178,7 +178,70 @@ bool SupportSurface::agrees_with(const SupportSurface& other, const std::array<c
   });
 }
 
+namespace {
+
+/// Where the inside of a triangle, or of a side, intersects the axis of a quadric of revolution.
+std::optional<core::Vec3> crossing_of_axis(const SupportSurface& surface,
+                                           const std::array<core::Vec3, 3>& triangle) {
+  const core::Vec3 axis = surface.axis.vec();
+  const core::Vec3 normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
+  const double along = normal.dot(axis);
+  if (!(std::abs(along) > 1e-6 * normal.norm())) return std::nullopt;
+  const core::Vec3 crossing =
+      surface.origin.vec() + normal.dot(triangle[0] - surface.origin.vec()) / along * axis;
+  constexpr double kAtCorner = 1e-9, kInside = -1e-12;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const core::Vec3 side = triangle[(k + 1) % 3] - triangle[k];
+    const double share = side.cross(crossing - triangle[k]).dot(normal) / normal.squaredNorm();
+    if (share < kInside || (crossing - triangle[k]).norm() <= kAtCorner * side.norm()) return std::nullopt;
+  }
+  return crossing;
+}
+
+/// Area and volume of a quadric of revolution from the height of a point of its axis to the pole that is
+/// nearest to it.
+PatchExcess cap_beyond(const SupportSurface& s, const core::Vec3& on_axis) {
+  static const GaussRule rule;
+  const double from = s.axis.vec().dot(on_axis - s.origin.vec());
+  double pole = -s.radius2 / (2.0 * s.slope);
+  if (s.axial != 0.0) {
+    const double middle = s.slope / s.axial, root = std::sqrt(middle * middle + s.radius2 / s.axial);
+    pole = from > middle ? middle + root : middle - root;
+  }
+  PatchExcess cap;
+  for (std::size_t i = 0; i < kPoints; ++i) {
+    const double z = from + rule.node[i] * (pole - from), weight = rule.weight[i] * std::abs(pole - from);
+    const double rho2 = s.radius2 + 2.0 * s.slope * z - s.axial * z * z, slope = s.slope - s.axial * z;
+    cap.area_mm2 += weight * core::kTwoPi * std::sqrt(rho2 + slope * slope);
+    cap.volume_mm3 += weight * core::kPi * rho2;
+  }
+  return cap;
+}
+
+}  // namespace
+
 PatchExcess patch_excess(const SupportSurface& surface, const std::array<core::Vec3, 3>& triangle) {
+  const SurfaceKind kind = surface.kind();
+  if (kind == SurfaceKind::spheroid || kind == SurfaceKind::paraboloid)
+    if (const std::optional<core::Vec3> crossing = crossing_of_axis(surface, triangle)) {
+      // Around the axis the projection at constant z leaves out the cap beyond the crossing.
+      const PatchExcess cap = cap_beyond(surface, *crossing);
+      const core::Vec3 axis = surface.axis.vec();
+      const bool outwards =
+          (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).dot(surface.gradient(triangle[0])) >
+          0.0;
+      PatchExcess sum;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const core::Vec3 &a = triangle[k], &b = triangle[(k + 1) % 3];
+        const core::Vec3 to_a = (a - *crossing).cross(axis), to_b = (b - *crossing).cross(axis);
+        if (!((a - *crossing).cross(b - *crossing).norm() > 1e-12 * (b - a).squaredNorm())) continue;
+        const double turn = std::atan2(to_a.cross(to_b).norm(), to_a.dot(to_b)) / core::kTwoPi;
+        const PatchExcess part = patch_excess(surface, {*crossing, a, b});
+        sum.area_mm2 += part.area_mm2 + turn * cap.area_mm2;
+        sum.volume_mm3 += part.volume_mm3 + (outwards ? turn : -turn) * cap.volume_mm3;
+      }
+      return sum;
+    }
   static const GaussRule rule;
   // From the corner that is nearest to the axis: at the tip of a cone the integrand depends on the direction.
   const auto from_axis = [&](const core::Vec3& corner) { return (corner - surface.middle(corner)).norm(); };

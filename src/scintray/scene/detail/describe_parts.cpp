@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <set>
+#include <tuple>
 
 #include "scintray/scene/detail/round_parts.hpp"
 
@@ -27,13 +29,29 @@ class CurveDescription {
     info_.curved = body_.round;
     info_.facets_because = body_.facets_because;
     for (std::size_t t = 0; t < geometry_.triangles.size(); ++t) add_round(t);
+    for (auto& [face, kinds] : kinds_)
+      faces_[face].curve =
+          std::accumulate(std::next(kinds.begin()), kinds.end(), *kinds.begin(),
+                          [](const auto& all, const auto& kind) { return all + ", " + kind; });
     if (!body_.round) return;
-    add_ends();
-    add_bounds();
+    std::vector<SurfaceTriangle> triangles;
+    for (std::size_t t = 0; t < geometry_.triangles.size(); ++t)
+      triangles.push_back({corners(t), geometry_.support[t]});
+    const auto excess = edge_excess(triangles, geometry_.supports);
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      FaceInfo& face = faces_[geometry_.face[t]];
+      for (const mesh::PatchExcess& more : excess[t]) {
+        face.area_mm2 += more.area_mm2;
+        info_.volume_mm3 += more.volume_mm3;
+        if (triangles[t].support == mesh::kNoSupport)
+          face.area_vector_mm2 += more.area_mm2 * doubled_area(triangles[t].corners).normalized();
+      }
+    }
+    info_.bounds = exact_bounds(triangles, geometry_.supports);
   }
 
  private:
-  std::array<core::Vec3, 3> corners(std::size_t t) const {
+  Corners corners(std::size_t t) const {
     const auto& [a, b, c] = geometry_.triangles[t];
     return {geometry_.vertices[a], geometry_.vertices[b], geometry_.vertices[c]};
   }
@@ -43,7 +61,7 @@ class CurveDescription {
     const mesh::SupportSurface& surface = geometry_.supports[geometry_.support[t]];
     FaceInfo& face = faces_[geometry_.face[t]];
     const mesh::FacetDeviation deviation = mesh::facet_deviation(surface, corners(t));
-    face.curve = surface.name();
+    kinds_[geometry_.face[t]].insert(surface.name());
     face.exact = body_.round;
     face.deviation.distance_mm = std::max(face.deviation.distance_mm, deviation.distance_mm);
     face.deviation.angle_rad = std::max(face.deviation.angle_rad, deviation.angle_rad);
@@ -53,77 +71,107 @@ class CurveDescription {
     info_.volume_mm3 += excess.volume_mm3;
   }
 
-  /// Flat ends reach from the chords of the triangles' outline to the circle; around a hole they end there.
-  void add_ends() {
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> supports;  // of directed sides
-    for (std::size_t t = 0; t < geometry_.triangles.size(); ++t)
-      for (std::size_t k = 0; k < 3; ++k)
-        if (geometry_.support[t] != mesh::kNoSupport)
-          supports[{geometry_.triangles[t][k], geometry_.triangles[t][(k + 1) % 3]}] = geometry_.support[t];
-    for (std::size_t t = 0; t < geometry_.triangles.size(); ++t) {
-      if (geometry_.support[t] != mesh::kNoSupport) continue;
-      const auto [a, b, c] = corners(t);
-      const core::Vec3 normal = (b - a).cross(c - a).normalized();
-      for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t from = geometry_.triangles[t][k], to = geometry_.triangles[t][(k + 1) % 3];
-        const auto round = supports.find({to, from});
-        if (round == supports.end()) continue;
-        const mesh::SupportSurface& surface = geometry_.supports[round->second];
-        const core::Vec3 &a_from = geometry_.vertices[from], &a_to = geometry_.vertices[to];
-        const double area = mesh::segment_area(surface, normal, a_from, a_to);
-        FaceInfo& face = faces_[geometry_.face[t]];
-        face.area_mm2 += area;
-        face.area_vector_mm2 += area * normal;
-      }
-    }
-  }
-
-  /// The box around the body: by the poles of spheres and the rims of cylinders and cones; where one of these
-  /// is cut obliquely, or the body has other faces or is not convex, by the largest deviation of the facets.
-  void add_bounds() {
-    const auto upright = [&](const mesh::SupportSurface& s) {
-      const mesh::SurfaceKind kind = s.kind();
-      if (kind != mesh::SurfaceKind::cylinder && kind != mesh::SurfaceKind::cone) return s.is_sphere();
-      return std::all_of(body_.planes.begin(), body_.planes.end(),
-                         [&](const WorldPlane& plane) { return s.axis.cross(plane.normal).norm() < 1e-9; });
-    };
-    if (!body_.convex || !std::all_of(body_.quadrics.begin(), body_.quadrics.end(), upright)) {
-      const core::Vec3 bulge = core::Vec3::Constant(2.0 * body_.deviation_mm);
-      info_.bounds = Eigen::AlignedBox3d(info_.bounds.min() - bulge, info_.bounds.max() + bulge);
-      return;
-    }
-    for (std::size_t t = 0; t < geometry_.triangles.size(); ++t) {
-      if (geometry_.support[t] == mesh::kNoSupport) continue;
-      const mesh::SupportSurface& surface = geometry_.supports[geometry_.support[t]];
-      for (const core::Vec3& corner : corners(t)) {
-        const core::Vec3 middle = surface.middle(corner);
-        const double radius = (corner - middle).norm();
-        for (int axis = 0; axis < 3; ++axis) {
-          core::Vec3 side = core::Vec3::Unit(axis);
-          if (!surface.is_sphere()) side -= surface.axis[axis] * surface.axis.vec();
-          if (!(side.norm() > 1e-9)) continue;
-          side *= radius / side.norm();
-          for (const core::Vec3& point : {core::Vec3(middle + side), core::Vec3(middle - side)})
-            if (on_body(point)) info_.bounds.extend(point);
-        }
-      }
-    }
-  }
-
-  /// Whether a point of a round face is one of the body, too.
-  bool on_body(const core::Vec3& point) const {
-    const double rounding = 1e-9 * info_.bounds.diagonal().norm();
-    return std::all_of(
-               body_.planes.begin(), body_.planes.end(),
-               [&](const WorldPlane& plane) { return plane.normal.dot(point) <= plane.offset + rounding; }) &&
-           std::all_of(body_.quadrics.begin(), body_.quadrics.end(),
-                       [&](const mesh::SupportSurface& s) { return s.distance(point) <= rounding; });
-  }
-
   const contact::PlacedPart& geometry_;
   const PartBody& body_;
   PartInfo& info_;
   core::IdVector<core::FaceId, FaceInfo>& faces_;
+  std::map<core::FaceId, std::set<std::string>> kinds_;  ///< of the surfaces of each face
+};
+
+/// Adds to the areas of interfaces, and of faces in contact, what the exact round faces and their edges add
+/// to triangles.
+class CurvedInterfaces {
+ public:
+  CurvedInterfaces(const PartBodies& bodies, const std::vector<contact::InterfaceTriangle>& triangles,
+                   const std::vector<core::InterfaceId>& interface_of, Scene& scene)
+      : bodies_(bodies), triangles_(triangles), interface_of_(interface_of), scene_(scene) {}
+
+  void add() {
+    std::map<core::PartId, std::vector<Side>> sides;  // of exact parts
+    for (std::size_t i = 0; i < triangles_.size(); ++i) {
+      const contact::InterfaceTriangle& t = triangles_[i];
+      if (t.back_support != mesh::kNoSupport && bodies_[t.back].round)
+        add(i, mesh::patch_excess(bodies_[t.back].quadrics[t.back_support], t.vertex).area_mm2);
+      const auto add_side = [&](core::PartId part, bool front) {
+        const Side side{i, front};
+        for (std::size_t k = 0; k < 3; ++k) flat_at_[edge(part, corners(side), k)] = i;
+        const bool own_face = (front ? t.front_face : t.back_face).has_value();
+        if (own_face && bodies_[part].round) sides[part].push_back(side);
+      };
+      add_side(t.back, false);
+      add_side(t.front, true);
+    }
+    for (const auto& [part, own] : sides) add_edges(part, own);
+    // An edge between two parts is found from both, and beside a third one.
+    own_edges_.merge(edges_beside_);
+    for (const auto& [edge, area_mm2] : own_edges_) add(edge.first, area_mm2);
+  }
+
+ private:
+  /// A triangle, seen from the part behind it or from that before it.
+  struct Side {
+    std::size_t triangle;
+    bool front;
+  };
+  using Point = std::array<double, 3>;
+  using Edge = std::tuple<core::PartId, Point, Point>;
+  /// A triangle and its side between two points, in either direction.
+  using TriangleSide = std::pair<std::size_t, std::pair<Point, Point>>;
+
+  Corners corners(const Side& side) const {
+    const Corners& t = triangles_[side.triangle].vertex;
+    return side.front ? Corners{t[0], t[2], t[1]} : t;
+  }
+  std::uint32_t support(const Side& side) const {
+    const contact::InterfaceTriangle& t = triangles_[side.triangle];
+    return side.front ? t.front_support : t.back_support;
+  }
+  static Edge edge(core::PartId part, const Corners& t, std::size_t k) {
+    return {part, point(t[k]), point(t[(k + 1) % 3])};
+  }
+  static Point point(const core::Vec3& v) { return {v.x() + 0.0, v.y() + 0.0, v.z() + 0.0}; }
+  static TriangleSide side_of(std::size_t triangle, const Corners& t, std::size_t k) {
+    return {triangle, std::minmax({point(t[k]), point(t[(k + 1) % 3])})};
+  }
+
+  bool is_on_plane(std::size_t triangle, const Corners& plane) const {
+    const contact::InterfaceTriangle& t = triangles_[triangle];
+    if (t.back_support != mesh::kNoSupport || t.front_support != mesh::kNoSupport) return false;
+    return doubled_area(t.vertex).normalized().cross(doubled_area(plane).normalized()).norm() < 1e-6;
+  }
+
+  void add(std::size_t triangle, double area_mm2) {
+    const contact::InterfaceTriangle& t = triangles_[triangle];
+    scene_.interface_area_mm2[interface_of_[triangle]] += area_mm2;
+    if (!t.back_face.has_value() || !t.front_face.has_value()) return;
+    scene_.faces[t.back_face].contact_area_mm2 += area_mm2;
+    scene_.faces[t.front_face].contact_area_mm2 += area_mm2;
+  }
+
+  void add_edges(core::PartId part, const std::vector<Side>& own) {
+    std::vector<SurfaceTriangle> boundary;
+    for (const Side& side : own) boundary.push_back({corners(side), support(side)});
+    const auto excess = edge_excess(boundary, bodies_[part].quadrics);
+    for (std::size_t n = 0; n < own.size(); ++n) {
+      const contact::InterfaceTriangle& t = triangles_[own[n].triangle];
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (excess[n][k].area_mm2 == 0.0) continue;
+        own_edges_.try_emplace(side_of(own[n].triangle, boundary[n].corners, k), excess[n][k].area_mm2);
+        if (boundary[n].support != mesh::kNoSupport) continue;
+        // What an end covers of a plane, what is beside the end on this plane does not.
+        const auto beside = flat_at_.find(edge(own[n].front ? t.back : t.front, boundary[n].corners, k));
+        if (beside != flat_at_.end() && is_on_plane(beside->second, boundary[n].corners))
+          edges_beside_.try_emplace(side_of(beside->second, boundary[n].corners, k), -excess[n][k].area_mm2);
+      }
+    }
+  }
+
+  const PartBodies& bodies_;
+  const std::vector<contact::InterfaceTriangle>& triangles_;
+  const std::vector<core::InterfaceId>& interface_of_;
+  Scene& scene_;
+  std::map<Edge, std::size_t> flat_at_;                      ///< triangle by region and directed side
+  std::map<TriangleSide, double> own_edges_, edges_beside_;  ///< area, mm2
 };
 
 }  // namespace
@@ -165,15 +213,7 @@ void describe_curves(const Assembly& assembly, const PartBodies& bodies,
   for (const core::PartId part : assembly.parts.ids())
     if (!assembly.parts[part].geometry.supports.empty())
       CurveDescription(assembly, part, bodies[part], scene).add();
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    const contact::InterfaceTriangle& t = triangles[i];
-    if (t.back_support == mesh::kNoSupport || !bodies[t.back].round) continue;
-    const double more = mesh::patch_excess(bodies[t.back].quadrics[t.back_support], t.vertex).area_mm2;
-    scene.interface_area_mm2[interface_of[i]] += more;
-    if (!t.front_face.has_value()) continue;
-    scene.faces[t.back_face].contact_area_mm2 += more;
-    scene.faces[t.front_face].contact_area_mm2 += more;
-  }
+  CurvedInterfaces(bodies, triangles, interface_of, scene).add();
 }
 
 }  // namespace scintray::scene

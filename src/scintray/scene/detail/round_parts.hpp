@@ -126,6 +126,24 @@ bool needs_exact_bodies(const PartBodies& bodies, core::PartId of,
 ExactBodies exact_bodies_of(const PartBodies& bodies, core::PartId of, const RegionFrame& frame,
                             const std::vector<RegionTriangle>& triangles);
 
+/// A triangle and the number of the surface that it approximates, or mesh::kNoSupport.
+struct SurfaceTriangle {
+  Corners corners;
+  std::uint32_t support = mesh::kNoSupport;
+};
+
+/// Area and volume that the true edges between exact faces add to triangles with their patches
+/// (mesh::patch_excess), by triangle and side: a flat face extends from the chord to the curve, and the patch
+/// of a round one ends there. Exact to rounding for circles of cylinders, cones and tori; for other curves
+/// the error goes with the fourth power of the facets' angle.
+/// @param triangles  of a closed boundary, outwards
+std::vector<std::array<mesh::PatchExcess, 3>> edge_excess(const std::vector<SurfaceTriangle>& triangles,
+                                                          const std::vector<mesh::SupportSurface>& supports);
+
+/// The box around the exact faces of a closed boundary, to 1e-9 of its size.
+Eigen::AlignedBox3d exact_bounds(const std::vector<SurfaceTriangle>& triangles,
+                                 const std::vector<mesh::SupportSurface>& supports);
+
 /// Sets scene.parts and scene.faces, as their triangles are.
 void describe_parts(const Assembly& assembly, Scene& scene);
 
