@@ -251,6 +251,36 @@ TEST_CASE("Nothing is lost among bodies that touch in a point, share a radius, a
                 at("2 mm", "0 mm", "0 mm")) +
            part("c", R"(sphere = { radius = "1 mm", subdivisions = 3 })", "n15", at("0 mm", "0 mm", "6 mm")),
        "a"},
+      // A ball of the radius of the rod around it, and of the bore around it, by other facets.
+      {part("a", R"(cylinder = { radius = "1 mm", height = "5 mm", segments = 12 })") +
+           part("b", R"(sphere = { radius = "1 mm", subdivisions = 3 })", "lso_clear",
+                at("0 mm", "0 mm", "2.5 mm")),
+       "a"},
+      {part("a",
+            R"(tube = { outer_radius = "2 mm", inner_radius = "1 mm", height = "5 mm", segments = 12 })") +
+           part("b", R"(sphere = { radius = "1 mm", subdivisions = 3 })", "lso_clear",
+                at("0 mm", "0 mm", "2.5 mm")),
+       "b"},
+      // A rod in a bore of 1 um more, turned, whose facets overlap; a torus around a rod, and in a tube.
+      {part(
+           "a",
+           R"(tube = { outer_radius = "2 mm", inner_radius = "1.001 mm", height = "5 mm", segments = 12 })") +
+           part("b", R"(cylinder = { radius = "1 mm", height = "6 mm", segments = 10 })", "lso_clear",
+                at("0 mm", "0 mm", "-0.5 mm")),
+       "b"},
+      {part("a", R"(cylinder = { radius = "1 mm", height = "5 mm", segments = 7 })") +
+           part("b",
+                R"(torus = { radius = "1.5 mm", tube_radius = "0.5 mm", segments = 16, tube_segments = 12 })",
+                "lso_clear", at("0 mm", "0 mm", "2.5 mm")) +
+           part("c",
+                R"(tube = { outer_radius = "3 mm", inner_radius = "2 mm", height = "5 mm", segments = 9 })"),
+       "b"},
+      // A box with its edges on the wall of a bore.
+      {part("a",
+            R"(tube = { outer_radius = "2 mm", inner_radius = "1 mm", height = "5 mm", segments = 12 })") +
+           part("b", R"(box = { low = ["-0.6 mm", "-0.8 mm", "1 mm"], high = ["0.6 mm", "0.8 mm", "4 mm"] })",
+                "lso_clear"),
+       "a"},
       // A ball of almost the radius of the rod around it.
       {part("a", R"(cylinder = { radius = "1 mm", height = "5 mm", segments = 64 })") +
            part("b", R"(sphere = { radius = "0.99 mm", subdivisions = 4 })", "lso_clear",
@@ -297,13 +327,57 @@ TEST_CASE("Nothing is lost among bodies that touch in a point, share a radius, a
         if (!on_way || photon.region == kAmbientRegion) continue;
         const Region& region = built.scene.regions[photon.region];
         const Vec3 local = region.point_to_local(photon.position);
-        for (const ExactBody& body : {built.scene.accelerator(region).boundary().exact.bodies.front()})
-          for (std::uint32_t q = body.quadrics_begin; q < body.quadrics_end; ++q)
-            REQUIRE(built.scene.accelerator(region).boundary().exact.quadrics[q].surface.distance(local) <
-                    1e-9 * std::max(1.0, size));
+        const ExactBodies& exact = built.scene.accelerator(region).boundary().exact;
+        if (exact.empty()) continue;  // a box
+        const ExactBody& body = exact.bodies.front();
+        const double rounding = 1e-9 * std::max(1.0, size);
+        if (!body.is_convex())
+          REQUIRE((exact.contains(body, local) || exact.distance_to_faces(body, local) < rounding));
+        for (std::uint32_t q = body.quadrics_begin; body.is_convex() && q < body.quadrics_end; ++q)
+          REQUIRE(exact.quadrics[q].surface.distance(local) < rounding);
       }
     }
   }
+}
+
+TEST_CASE("Parts overlap where exact bodies do, and where facets do that one wall would have in common") {
+  const auto bore = [](const std::string& radius, const std::string& inner) {
+    return part("tile", "tube = { outer_radius = \"3 mm\", inner_radius = \"" + radius +
+                            "\", height = \"5 mm\", segments = 12 }") +
+           inner;
+  };
+  const auto ball = [](const std::string& radius) {
+    return part("ball", "sphere = { radius = \"" + radius + "\", subdivisions = 4 }", "lso_clear",
+                "surface = \"flat\"\ntranslate = [\"0 mm\", \"0 mm\", \"2.5 mm\"]\n");
+  };
+  const auto rod = [](int segments, const std::string& turn) {
+    return part(
+        "rod",
+        "cylinder = { radius = \"1 mm\", height = \"5 mm\", segments = " + std::to_string(segments) + " }",
+        "lso_clear", "surface = \"flat\"\nrotate = { axis = [0, 0, 1], angle = \"" + turn + "\" }\n");
+  };
+  for (const std::string& apart : {bore("1 mm", ball("1 mm")), bore("1 mm", rod(12, "0 deg")),
+                                   bore("1.001 mm", rod(10, "0 deg")), bore("1.001 mm", rod(12, "15 deg"))}) {
+    CAPTURE(apart);
+    const BuiltScene built = build(spec_of(apart, "tile"));
+    for (const PartInfo& body : built.scene.parts) CHECK(body.curved);
+  }
+  for (const std::string& overlapping :
+       {bore("1 mm", ball("1.02 mm")), bore("1 mm", rod(10, "0 deg")), bore("1 mm", rod(12, "15 deg")),
+        bore("0.99 mm", rod(12, "15 deg"))}) {
+    CAPTURE(overlapping);
+    std::string message;
+    try {
+      build(spec_of(overlapping, "tile"));
+    } catch (const InputError& error) {
+      message = error.what();
+    }
+    CHECK(message.find("overlap by") != std::string::npos);
+    CHECK(message.find("the same number of segments") != std::string::npos);
+  }
+  // Facets are as far as they reach where they are traced.
+  CHECK_THROWS_AS(build(spec_of(bore("1 mm", ball("1 mm")), "tile", "[run]\ncurved = \"facets\"\n")),
+                  InputError);
 }
 
 TEST_CASE("A body that would extend into the facets beside it, or into another body, keeps its own") {
@@ -323,6 +397,17 @@ TEST_CASE("A body that would extend into the facets beside it, or into another b
                                            "core"));
     CHECK((built.scene.parts.begin() + 1)->curved == exact);
     if (!exact) CHECK((built.scene.parts.begin() + 1)->facets_because.find("around") != std::string::npos);
+  }
+  // A rod that would bulge through the middle of the side of a box, and one that only touches it.
+  for (const auto& [at, exact] : {std::pair{"0.95 mm", false}, std::pair{"1 mm", true}}) {
+    const BuiltScene built =
+        build(spec_of(part("a", R"(cylinder = { radius = "1 mm", height = "3 mm", segments = 6 })", "n15",
+                           "surface = \"flat\"\nrotate = { axis = [0, 0, 1], angle = \"30 deg\" }\n") +
+                          part("b", std::string(R"(box = { low = [")") + at +
+                                        R"(", "-9 mm", "-9 mm"], high = ["3 mm", "9 mm", "9 mm"] })"),
+                      "a"));
+    CHECK(built.scene.parts.front().curved == exact);
+    if (!exact) CHECK(built.scene.parts.front().facets_because.find("\"b\"") != std::string::npos);
   }
   // Two rods whose polygons, turned against each other, are apart, and whose circles are not.
   const std::string rod = R"(cylinder = { radius = "1 mm", height = "3 mm", segments = 6 })";

@@ -63,30 +63,17 @@ void check_parts(const std::vector<PlacedPart>& parts, const std::vector<Body>& 
   problems.throw_if_any();
 }
 
-void refuse_overlaps(const std::vector<PlacedPart>& parts, const std::vector<OverlappingPair>& pairs,
-                     double tolerance_mm) {
-  core::Problems problems;
-  for (const OverlappingPair& pair : pairs) {
-    const OverlapVolume common = overlap_volume(parts[pair.a], parts[pair.b]);
-    const std::string how =
-        common.exact ? "" : fmt::format(" (counted on a grid of {} points)", kOverlapGridPoints);
-    const PlacedPart &a = parts[pair.a], &b = parts[pair.b];
-    problems.add(
-        a.where,
-        fmt::format("parts '{}' and '{}' overlap by {}{:.6g} mm3{}, for example at ({:.6g}, {:.6g}, "
-                    "{:.6g}) mm; parts may touch or lie one wholly inside the other{}",
-                    a.name, b.name, common.exact ? "" : "about ", common.volume_mm3, how, common.inside.x(),
-                    common.inside.y(), common.inside.z(), also_at(b.name, b.where, a.where)),
-        fmt::format("move one of them, or give the one that is to keep the space a higher priority; faces "
-                    "meant to touch may miss each other by the contact tolerance, {:.3g} mm{}",
-                    tolerance_mm,
-                    a.supports.empty() && b.supports.empty()
-                        ? ""
-                        : "; round parts are compared by their facets: give both the same number of segments "
-                          "and the same turn about their axis, or more segments"),
-        {{common.inside.x(), common.inside.y(), common.inside.z()}});
+/// Largest distance (mm) of a part's facets from the surfaces that they approximate.
+double deviation_of(const PlacedPart& part) {
+  double largest = 0.0;
+  for (std::size_t t = 0; t < part.support.size(); ++t) {
+    if (part.support[t] == mesh::kNoSupport) continue;
+    const auto& [a, b, c] = part.triangles[t];
+    const mesh::FacetDeviation deviation = mesh::facet_deviation(
+        part.supports[part.support[t]], {part.vertices[a], part.vertices[b], part.vertices[c]});
+    largest = std::max(largest, deviation.distance_mm);
   }
-  problems.throw_if_any();
+  return largest;
 }
 
 /// Assigns to every cell of every surface the regions on its two sides.
@@ -356,7 +343,35 @@ std::string also_at(const std::string& name, const core::FileLocation& where,
   return place.empty() || place == reported.text() ? "" : "; '" + name + "' is at " + place;
 }
 
-std::vector<InterfaceTriangle> resolve_contacts(const std::vector<PlacedPart>& parts, double tolerance_mm) {
+void refuse_overlaps(const std::vector<PlacedPart>& parts, const std::vector<OverlappingPair>& pairs,
+                     double tolerance_mm) {
+  core::Problems problems;
+  for (const OverlappingPair& pair : pairs) {
+    const OverlapVolume common = overlap_volume(parts[pair.a], parts[pair.b]);
+    const std::string how =
+        common.exact ? "" : fmt::format(" (counted on a grid of {} points)", kOverlapGridPoints);
+    const PlacedPart &a = parts[pair.a], &b = parts[pair.b];
+    problems.add(
+        a.where,
+        fmt::format("parts '{}' and '{}' overlap by {}{:.6g} mm3{}, for example at ({:.6g}, {:.6g}, "
+                    "{:.6g}) mm; parts may touch or lie one wholly inside the other{}",
+                    a.name, b.name, common.exact ? "" : "about ", common.volume_mm3, how, common.inside.x(),
+                    common.inside.y(), common.inside.z(), also_at(b.name, b.where, a.where)),
+        fmt::format(
+            "move one of them, or give the one that is to keep the space a higher priority; faces "
+            "meant to touch may miss each other by the contact tolerance, {:.3g} mm{}",
+            tolerance_mm,
+            a.supports.empty() && b.supports.empty()
+                ? ""
+                : "; round parts with one wall in common are compared by their facets: give both the same "
+                  "number of segments and the same turn about their axis"),
+        {{common.inside.x(), common.inside.y(), common.inside.z()}});
+  }
+  problems.throw_if_any();
+}
+
+std::vector<InterfaceTriangle> resolve_contacts(const std::vector<PlacedPart>& parts, double tolerance_mm,
+                                                std::vector<OverlappingPair>* by_facets) {
   const double rounding = rounding_length(parts);
   check_tolerance(tolerance_mm, rounding);
   core::report_activity("looking for parts that touch");
@@ -371,7 +386,13 @@ std::vector<InterfaceTriangle> resolve_contacts(const std::vector<PlacedPart>& p
   const Clusters clusters = find_clusters(bodies, parts, pairs, tolerance_mm);
   snap(bodies, clusters, tolerance_mm, rounding);
   core::report_activity("looking for parts inside others");
-  const Nesting nesting = find_nesting(bodies, pairs, tolerance_mm);
+  std::vector<double> deviation_mm;
+  for (const PlacedPart& part : parts) deviation_mm.push_back(deviation_of(part));
+  Nesting nesting = find_nesting(bodies, pairs, tolerance_mm, deviation_mm);
+  if (by_facets == nullptr)
+    nesting.overlaps.insert(nesting.overlaps.end(), nesting.by_facets.begin(), nesting.by_facets.end());
+  else
+    *by_facets = nesting.by_facets;
   refuse_overlaps(parts, nesting.overlaps, tolerance_mm);
   return Resolver(bodies, nesting, clusters, pairs, rounding).run();
 }

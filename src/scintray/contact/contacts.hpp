@@ -44,6 +44,11 @@ struct InterfaceTriangle {
   std::uint32_t back_support = mesh::kNoSupport, front_support = mesh::kNoSupport;
 };
 
+/// Two parts, by number, that share volume without one lying inside the other.
+struct OverlappingPair {
+  std::uint32_t a, b;
+};
+
 /// Interfaces between the regions of touching and nested parts.
 ///
 /// Coplanar faces of different parts closer than `tolerance_mm` (and parallel within it over their
@@ -52,9 +57,17 @@ struct InterfaceTriangle {
 /// flush nested faces are handled. The triangles of every region together form its closed boundary.
 ///
 /// @param parts  the i-th has the id i
-/// @throws InputError naming both parts, the overlap volume and a point inside it, for parts that
-///         overlap with volume; all such pairs are listed.
-[[nodiscard]] std::vector<InterfaceTriangle> resolve_contacts(const std::vector<PlacedPart>& parts,
-                                                              double tolerance_mm);
+/// @param by_facets  receives the pairs of which facets overlap by no more than they deviate from their
+/// support
+///        surfaces, so that the exact bodies may not; null: these count as overlapping
+/// @throws InputError as refuse_overlaps, for parts that overlap with volume
+[[nodiscard]] std::vector<InterfaceTriangle> resolve_contacts(
+    const std::vector<PlacedPart>& parts, double tolerance_mm,
+    std::vector<OverlappingPair>* by_facets = nullptr);
+
+/// Throws InputError, if there are any pairs, naming both parts of each, the overlap volume and a point
+/// inside it.
+void refuse_overlaps(const std::vector<PlacedPart>& parts, const std::vector<OverlappingPair>& pairs,
+                     double tolerance_mm);
 
 }  // namespace scintray::contact

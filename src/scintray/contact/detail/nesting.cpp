@@ -79,10 +79,11 @@ enum class Relation { apart, a_in_b, b_in_a, overlap };
 
 class Relations {
  public:
-  Relations(const std::vector<Body>& bodies, double tolerance)
-      : bodies_(bodies), tolerance_(tolerance), interior_(bodies.size()) {}
+  explicit Relations(const std::vector<Body>& bodies) : bodies_(bodies), interior_(bodies.size()) {}
 
-  Relation of(const BodyPair& pair) {
+  /// @param tolerance  distance (mm) from a surface within which points are on it
+  Relation of(const BodyPair& pair, double tolerance) {
+    tolerance_ = tolerance;
     const Body& a = bodies_[pair.a];
     const Body& b = bodies_[pair.b];
     const core::Vec3 common = a.box.high.cwiseMin(b.box.high) - a.box.low.cwiseMax(b.box.low);
@@ -116,19 +117,25 @@ class Relations {
   }
 
   const std::vector<Body>& bodies_;
-  double tolerance_;
+  double tolerance_ = 0.0;
   std::vector<std::optional<core::Vec3>> interior_;
 };
 
 }  // namespace
 
-Nesting find_nesting(const std::vector<Body>& bodies, const std::vector<BodyPair>& pairs,
-                     double tolerance_mm) {
+Nesting find_nesting(const std::vector<Body>& bodies, const std::vector<BodyPair>& pairs, double tolerance_mm,
+                     const std::vector<double>& deviation_mm) {
   Nesting nesting;
   nesting.around.resize(bodies.size());
-  Relations relations(bodies, tolerance_mm);
+  Relations relations(bodies);
   for (const BodyPair& pair : pairs) {
-    switch (relations.of(pair)) {
+    Relation relation = relations.of(pair, tolerance_mm);
+    const double by_facets_mm = deviation_mm.empty() ? 0.0 : deviation_mm[pair.a] + deviation_mm[pair.b];
+    if (relation == Relation::overlap && by_facets_mm > 0.0) {
+      relation = relations.of(pair, tolerance_mm + by_facets_mm);
+      if (relation != Relation::overlap) nesting.by_facets.push_back({pair.a, pair.b});
+    }
+    switch (relation) {
       case Relation::apart:
         break;
       case Relation::a_in_b:

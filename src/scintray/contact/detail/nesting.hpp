@@ -8,15 +8,11 @@
 
 namespace scintray::contact {
 
-/// Two bodies that share volume without one lying inside the other.
-struct OverlappingPair {
-  std::uint32_t a, b;
-};
-
 /// Bodies around bodies. Bodies that merely touch are not inside each other.
 struct Nesting {
   std::vector<std::vector<std::uint32_t>> around;  ///< by body: all bodies around it, innermost first
   std::vector<OverlappingPair> overlaps;
+  std::vector<OverlappingPair> by_facets;  ///< these overlap by no more than their facets deviate
 
   std::size_t depth(std::uint32_t body) const { return around[body].size(); }
   /// The part that is the innermost body around `body`, or kAmbient.
@@ -27,8 +23,10 @@ struct Nesting {
 
 /// Relation of every near pair of bodies: disjoint (touching or not), nested or overlapping. A body that
 /// reaches less than `tolerance_mm` into the other one counts as touching it.
+/// @param deviation_mm  of each body, the largest distance of its facets from the surfaces that they
+///        approximate: bodies that overlap by less than both are as if they touched; empty: 0
 [[nodiscard]] Nesting find_nesting(const std::vector<Body>& bodies, const std::vector<BodyPair>& pairs,
-                                   double tolerance_mm);
+                                   double tolerance_mm, const std::vector<double>& deviation_mm = {});
 
 /// Overlap of two parts.
 struct OverlapVolume {

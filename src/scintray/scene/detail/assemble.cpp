@@ -340,8 +340,9 @@ Scene assemble(const Assembly& assembly) {
 
   std::vector<contact::PlacedPart> placed;
   for (const AssemblyPart& part : assembly.parts) placed.push_back(part.geometry);
+  std::vector<contact::OverlappingPair> by_facets;
   const std::vector<contact::InterfaceTriangle> triangles =
-      contact::resolve_contacts(placed, assembly.contact_tolerance_mm);
+      contact::resolve_contacts(placed, assembly.contact_tolerance_mm, &by_facets);
 
   InterfaceMaker maker(assembly, scene, problems);
   std::vector<core::InterfaceId> interface_of;
@@ -356,6 +357,10 @@ Scene assemble(const Assembly& assembly) {
   maker.report_unused_contacts();
   problems.throw_if_any();
   const PartBodies bodies = find_part_bodies(assembly, triangles);
+  std::erase_if(by_facets, [&](const contact::OverlappingPair& pair) {
+    return fit_exactly(assembly, bodies, core::PartId(pair.a), core::PartId(pair.b));
+  });
+  contact::refuse_overlaps(placed, by_facets, assembly.contact_tolerance_mm);
   if (!bodies.empty()) describe_curves(assembly, bodies, triangles, interface_of, scene);
   core::report_activity("preparing the ray search");
   build_regions(assembly, triangles, interface_of, bodies, scene);

@@ -252,7 +252,10 @@ class ClearanceCheck {
       const contact::InterfaceTriangle& t = triangles_[i];
       Eigen::AlignedBox3d box;
       for (const core::Vec3& corner : t.vertex) box.extend(corner);
-      if (!box.intersects(own.box) || !collides(t.vertex, part)) continue;
+      if (!box.intersects(own.box)) continue;
+      const Corners inwards =
+          t.back == region ? Corners{t.vertex[0], t.vertex[2], t.vertex[1]} : t.vertex;  // towards the region
+      if (!collides(t.vertex, part) && !extends_beyond(inwards, own.points, part)) continue;
       return leave_facets(part, t.back_face.has_value() && t.back != part ? t.back : t.front);
     }
   }
@@ -264,8 +267,21 @@ class ClearanceCheck {
                        [&](const core::Vec3& point) { return contains(outer, point, tolerance_); });
   }
 
-  /// Whether a triangle extends into the part by more than the tolerance, or a sample of the part lies beyond
-  /// it.
+  /// Whether the part, of which the facets do not intersect a triangle, bulges through it. The triangle's
+  /// normal points into the region of the part.
+  bool extends_beyond(const Corners& triangle, const std::vector<core::Vec3>& points, core::PartId part) {
+    const core::Vec3 normal = doubled_area(triangle);
+    const double reach = 2.0 * bodies_[part].deviation_mm + tolerance_;
+    return std::any_of(points.begin(), points.end(), [&](const core::Vec3& point) {
+      const double height = normal.dot(point - triangle[0]) / normal.norm();
+      if (!(height < 0.0) || height < -reach) return false;
+      for (std::size_t k = 0; k < 3; ++k)
+        if (normal.dot((triangle[(k + 1) % 3] - triangle[k]).cross(point - triangle[k])) < 0.0) return false;
+      return true;
+    });
+  }
+
+  /// Whether a triangle extends into the part by more than the tolerance.
   bool collides(const Corners& corners, core::PartId part) {
     const core::Vec3 middle = (corners[0] + corners[1] + corners[2]) / 3.0;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -311,6 +327,29 @@ PartBodies find_part_bodies(const Assembly& assembly,
   do match_contacts(assembly, triangles, bodies);
   while (ClearanceCheck(assembly, triangles, bodies).run());
   return bodies;
+}
+
+bool fit_exactly(const Assembly& assembly, const PartBodies& bodies, core::PartId a, core::PartId b) {
+  if (bodies.empty()) return false;
+  const contact::PlacedPart &first = assembly.parts[a].geometry, &second = assembly.parts[b].geometry;
+  if (!first.supports.empty() && !bodies[a].round) return false;
+  if (!second.supports.empty() && !bodies[b].round) return false;
+  Eigen::AlignedBox3d box;  // around the second
+  for (const core::Vec3& vertex : second.vertices) box.extend(vertex);
+  for (std::size_t t = 0; t < first.support.size(); ++t) {
+    if (first.support[t] == mesh::kNoSupport) continue;
+    const auto& [i, j, k] = first.triangles[t];
+    const Corners corners{first.vertices[i], first.vertices[j], first.vertices[k]};
+    Eigen::AlignedBox3d own;
+    for (const core::Vec3& corner : corners) own.extend(corner);
+    if (!own.intersects(box)) continue;
+    const mesh::SupportSurface& surface = first.supports[first.support[t]];
+    for (const mesh::SupportSurface& other : second.supports)
+      if (surface.kind() == other.kind() &&
+          surface.agrees_with(other, corners, kOnSurface * assembly.contact_tolerance_mm))
+        return false;
+  }
+  return true;
 }
 
 }  // namespace scintray::scene

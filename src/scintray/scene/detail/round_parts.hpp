@@ -71,6 +71,10 @@ using PartBodies = core::IdVector<core::PartId, PartBody>;
 PartBodies find_part_bodies(const Assembly& assembly,
                             const std::vector<contact::InterfaceTriangle>& triangles);
 
+/// Whether the round faces of two parts are exact, so that find_part_bodies has compared the exact bodies,
+/// and none of one is the same surface as one of the other, which their facets would have to share.
+bool fit_exactly(const Assembly& assembly, const PartBodies& bodies, core::PartId a, core::PartId b);
+
 /// Finds the trimmed faces of a part that is not convex, whose planes and quadrics are known.
 ///
 /// Triangles of one surface are one face. Where it borders on another, that surface, or a plane or cylinder
