@@ -138,6 +138,20 @@ std::vector<std::string> response_seeds() {
   return {written(".h5", [&](const std::filesystem::path& path) { write_response(path, file); })};
 }
 
+/// A shard of the whole of a map, traced forward and backward.
+std::vector<std::string> map_shard_seeds() {
+  std::vector<std::string> files;
+  for (const auto direction : {simulation::MapDirection::forward, simulation::MapDirection::backward})
+    files.push_back(written(".shard", [&](const std::filesystem::path& path) {
+      simulation::MapOptions options;
+      options.settings = {2.0, 5, 2, direction, 40};
+      options.shard = {path, {1, 1}};
+      const std::string text = std::string(kScene) + kEvents;
+      simulation::build_map(scene_file::SceneFile::from_text(text, "scene.toml"), options);
+    }));
+  return files;
+}
+
 /// Reads, and checks that what is refused is so with words.
 template <typename Read>
 bool read_or_input_error(const Read& read) {
@@ -164,6 +178,11 @@ bool run_ranges(const std::uint8_t* data, std::size_t size) {
     simulation::MemorySink memory;
     simulation::merge_ranges({file.path()}, memory, true);
   });
+}
+
+bool run_map_shard(const std::uint8_t* data, std::size_t size) {
+  const ScratchFile file(data, size, ".shard");
+  return read_or_input_error([&] { simulation::merge_map_shards({file.path()}); });
 }
 
 bool run_results(const std::uint8_t* data, std::size_t size) {
@@ -257,6 +276,7 @@ constexpr std::size_t kPerOwnByte = 4096, kOwnAlways = std::size_t{1} << 30;
 
 constexpr Entry kOwnEntries[] = {{"scene", run_scene, scene_seeds, kPerOwnByte, kOwnAlways},
                                  {"ranges", run_ranges, range_seeds, kPerOwnByte, kOwnAlways},
+                                 {"map_shard", run_map_shard, map_shard_seeds, kPerOwnByte, kOwnAlways},
                                  {"results", run_results, results_seeds, kPerOwnByte, kOwnAlways},
                                  {"response", run_response, response_seeds, kPerOwnByte, kOwnAlways},
                                  {"table", run_table, table_seeds, kPerOwnByte, kOwnAlways},
