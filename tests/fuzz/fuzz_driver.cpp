@@ -26,6 +26,7 @@
 #include <vector>
 
 #include "corpus.hpp"
+#include "curve_entries.hpp"
 #include "detector_entries.hpp"
 #include "entries.hpp"
 #include "geometry_entries.hpp"
@@ -45,7 +46,7 @@ constexpr std::uint64_t kPerChild = 2000, kPerStatement = 50'000;
 
 std::vector<Entry> all_entries() {
   std::vector<Entry> all;
-  for (const auto& list : {entries(), geometry_entries(), detector_entries(), own_entries()})
+  for (const auto& list : {entries(), geometry_entries(), detector_entries(), curve_entries(), own_entries()})
     all.insert(all.end(), list.begin(), list.end());
   return all;
 }

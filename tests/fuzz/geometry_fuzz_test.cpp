@@ -1,4 +1,4 @@
-/// The readers of geometry and of detectors against files damaged at random, from a fixed seed.
+/// The readers of geometry, of detectors and of curves against files damaged at random, from a fixed seed.
 
 #include <doctest/doctest.h>
 
@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "corpus.hpp"
+#include "curve_entries.hpp"
 #include "detector_entries.hpp"
 #include "geometry_entries.hpp"
 #include "mutate.hpp"
@@ -18,16 +19,17 @@ using namespace scintray::fuzz;
 
 namespace {
 
-std::vector<Entry> both_entries() {
+std::vector<Entry> read_entries() {
   std::vector<Entry> entries(geometry_entries().begin(), geometry_entries().end());
   entries.insert(entries.end(), detector_entries().begin(), detector_entries().end());
+  entries.insert(entries.end(), curve_entries().begin(), curve_entries().end());
   return entries;
 }
 
 }  // namespace
 
 TEST_CASE("geometry: the seeds are sound") {
-  for (const Entry& entry : both_entries()) {
+  for (const Entry& entry : read_entries()) {
     CAPTURE(std::string(entry.name));
     for (const std::string& seed : sound_seeds(entry)) CHECK(watched_run(entry, seed));
     for (const std::string& content : found(entry.name)) watched_run(entry, content);
@@ -42,7 +44,7 @@ TEST_CASE("geometry: damaged files end in a whole mesh or an input error, within
   constexpr int kMostTrials = 1000, kStepTrials = 150;
 #endif
   std::uint64_t stream = 0;
-  for (const Entry& entry : both_entries()) {
+  for (const Entry& entry : read_entries()) {
     CAPTURE(std::string(entry.name));
     const std::vector<std::string> seeds = all_seeds(entry);
     Rng rng(20261123, StreamKind::other, ++stream);
@@ -59,7 +61,7 @@ TEST_CASE("geometry: damaged files end in a whole mesh or an input error, within
 }
 
 TEST_CASE("geometry: files cut short end in a mesh or an input error") {
-  for (const Entry& entry : both_entries())
+  for (const Entry& entry : read_entries())
     for (const std::string& seed : all_seeds(entry))
       for (std::size_t size = 0; size < seed.size(); size += 1 + seed.size() / 100)
         watched_run(entry, seed.substr(0, size));

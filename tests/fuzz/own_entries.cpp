@@ -1,5 +1,6 @@
 #include "own_entries.hpp"
 
+#include <cstring>
 #include <functional>
 #include <iterator>
 #include <string_view>
@@ -10,6 +11,7 @@
 #include "scintray/core/error.hpp"
 #include "scintray/core/h5.hpp"
 #include "scintray/core/journal.hpp"
+#include "scintray/core/zlib_stream.hpp"
 #include "scintray/optics/table.hpp"
 #include "scintray/results/results.hpp"
 #include "scintray/scene_file/read_scene.hpp"
@@ -138,6 +140,20 @@ std::vector<std::string> response_seeds() {
   return {written(".h5", [&](const std::filesystem::path& path) { write_response(path, file); })};
 }
 
+/// A shard of the whole of a map, traced forward and backward.
+std::vector<std::string> map_shard_seeds() {
+  std::vector<std::string> files;
+  for (const auto direction : {simulation::MapDirection::forward, simulation::MapDirection::backward})
+    files.push_back(written(".shard", [&](const std::filesystem::path& path) {
+      simulation::MapOptions options;
+      options.settings = {2.0, 5, 2, direction, 40};
+      options.shard = {path, {1, 1}};
+      const std::string text = std::string(kScene) + kEvents;
+      simulation::build_map(scene_file::SceneFile::from_text(text, "scene.toml"), options);
+    }));
+  return files;
+}
+
 /// Reads, and checks that what is refused is so with words.
 template <typename Read>
 bool read_or_input_error(const Read& read) {
@@ -158,12 +174,40 @@ bool run_scene(const std::uint8_t* data, std::size_t size) {
       [&] { scene_file::SceneFile::from_text(text, (scene_folder() / "fuzz.toml").string()); });
 }
 
+/// The bytes with the checksums of their records made to fit, so that damage is not found by them alone.
+std::string resealed(const std::uint8_t* data, std::size_t size) {
+  constexpr std::size_t kHead = 1 + sizeof(std::uint64_t), kTail = sizeof(std::uint32_t);
+  std::string bytes(reinterpret_cast<const char*>(data), size);
+  std::size_t at = bytes.find('\n') + 1 + sizeof(std::uint32_t);
+  while (at > 0 && at < size && size - at >= kHead + kTail) {
+    std::uint64_t length = 0;
+    std::memcpy(&length, bytes.data() + at + 1, sizeof length);
+    if (length > size - at - kHead - kTail) break;
+    const std::uint32_t sum = core::crc32(std::string_view(bytes).substr(at, kHead + length));
+    std::memcpy(bytes.data() + at + kHead + length, &sum, kTail);
+    at += kHead + length + kTail;
+  }
+  return bytes;
+}
+
+/// Runs a reader on the bytes with fitting checksums.
+template <bool (*Run)(const std::uint8_t*, std::size_t)>
+bool run_resealed(const std::uint8_t* data, std::size_t size) {
+  const std::string bytes = resealed(data, size);
+  return Run(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+}
+
 bool run_ranges(const std::uint8_t* data, std::size_t size) {
   const ScratchFile file(data, size, ".shard");
   return read_or_input_error([&] {
     simulation::MemorySink memory;
     simulation::merge_ranges({file.path()}, memory, true);
   });
+}
+
+bool run_map_shard(const std::uint8_t* data, std::size_t size) {
+  const ScratchFile file(data, size, ".shard");
+  return read_or_input_error([&] { simulation::merge_map_shards({file.path()}); });
 }
 
 bool run_results(const std::uint8_t* data, std::size_t size) {
@@ -257,6 +301,9 @@ constexpr std::size_t kPerOwnByte = 4096, kOwnAlways = std::size_t{1} << 30;
 
 constexpr Entry kOwnEntries[] = {{"scene", run_scene, scene_seeds, kPerOwnByte, kOwnAlways},
                                  {"ranges", run_ranges, range_seeds, kPerOwnByte, kOwnAlways},
+                                 {"map_shard", run_map_shard, map_shard_seeds, kPerOwnByte, kOwnAlways},
+                                 {"map_shard_sealed", run_resealed<run_map_shard>, map_shard_seeds, kPerOwnByte, kOwnAlways},
+                                 {"ranges_sealed", run_resealed<run_ranges>, range_seeds, kPerOwnByte, kOwnAlways},
                                  {"results", run_results, results_seeds, kPerOwnByte, kOwnAlways},
                                  {"response", run_response, response_seeds, kPerOwnByte, kOwnAlways},
                                  {"table", run_table, table_seeds, kPerOwnByte, kOwnAlways},

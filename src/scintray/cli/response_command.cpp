@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
-#include <cmath>
 #include <iostream>
 #include <memory>
 
@@ -10,8 +9,10 @@
 #include "scintray/cli/exit_codes.hpp"
 #include "scintray/cli/interrupt.hpp"
 #include "scintray/cli/json_answer.hpp"
+#include "scintray/cli/response_text.hpp"
 #include "scintray/cli/resume_options.hpp"
 #include "scintray/cli/run_analysis.hpp"
+#include "scintray/cli/shard_option.hpp"
 #include "scintray/cli/watched_surfaces.hpp"
 #include "scintray/cli/word_option.hpp"
 #include "scintray/core/error.hpp"
@@ -36,6 +37,7 @@ struct BuildOptions {
   std::optional<int> threads;
   std::optional<std::uint64_t> seed;
   ResumeOptions resume;
+  std::optional<simulation::Shard> shard;  ///< none: the whole map
   bool quiet = false;
   bool json = false;
 };
@@ -60,70 +62,19 @@ double pitch_of(const std::string& text) {
   throw CLI::ValidationError("--pitch", "\"" + text + "\" is not above zero");
 }
 
-/// Sums over the cells of a grid.
-struct GridTotals {
-  std::uint64_t filled = 0;  ///< cells that are not empty
-  double detected = 0.0;     ///< mean probability of detection by any channel
-  double variance = 0.0;     ///< mean variance of the probability of one channel
-};
-
-GridTotals totals_of(const simulation::ResponseGrid& grid) {
-  GridTotals totals;
-  const std::size_t channels = grid.detected.size() / grid.photons.size();
-  for (std::size_t cell = 0; cell < grid.photons.size(); ++cell) {
-    if (grid.photons[cell] == 0) continue;
-    ++totals.filled;
-    for (std::size_t i = cell * channels; i < (cell + 1) * channels; ++i) {
-      const core::Estimate estimate = grid.estimate(cell, i);
-      totals.detected += estimate.value;
-      totals.variance += estimate.error * estimate.error;
-    }
-  }
-  totals.detected /= static_cast<double>(totals.filled);
-  totals.variance /= static_cast<double>(totals.filled * channels);
-  return totals;
-}
-
-Json json_of_map(const simulation::ResponseMap& map) {
-  Json grids = Json::array();
-  for (const simulation::ResponseGrid& grid : map.grids) {
-    const GridTotals totals = totals_of(grid);
-    grids.push_back({{"part", grid.part},
-                     {"cells", {grid.cells[0], grid.cells[1], grid.cells[2]}},
-                     {"pitch_mm", {grid.pitch.x(), grid.pitch.y(), grid.pitch.z()}},
-                     {"cells_filled", totals.filled},
-                     {"detected_fraction", totals.detected},
-                     {"rms_probability_error", std::sqrt(totals.variance)}});
-  }
-  return {{"direction", map.backward() ? "backward" : "forward"},
-          {"photons_per_cell", map.photons_per_cell},
-          {"photons_per_channel", map.photons_per_channel},
-          {"grids", grids}};
-}
-
-void print_map(const simulation::ResponseMap& map) {
-  std::cout << (map.backward()
-                    ? fmt::format("traced backward, {} photons from each of {} channels\n",
-                                  map.photons_per_channel, map.channels.size())
-                    : fmt::format("traced forward, {} photons from each cell\n", map.photons_per_cell));
-  for (const simulation::ResponseGrid& grid : map.grids) {
-    const auto [filled, detected, variance] = totals_of(grid);
-    std::cout << fmt::format(
-        "{}: {} x {} x {} cells of {:.4g} x {:.4g} x {:.4g} mm, {} of them filled; detected {:.4f}, standard "
-        "error of one channel's probability {:.2g}\n",
-        grid.part, grid.cells[0], grid.cells[1], grid.cells[2], grid.pitch.x(), grid.pitch.y(),
-        grid.pitch.z(), filled, detected, std::sqrt(variance));
-  }
-}
-
 void build(const BuildOptions& options) {
   const JsonAnswer answer(options.json);
   simulation::MapOptions map_options;
   map_options.settings = {pitch_of(options.pitch), options.photons, options.delays, options.direction,
                           options.channel_photons};
-  simulation::check_response_path(options.output);
-  const std::optional<core::FileLock> claim = core::claim_output(options.output);
-  map_options.journal = journal_settings(options.resume, options.output);
+  const std::filesystem::path output =
+      options.shard ? shard_path(options.output, *options.shard) : options.output;
+  if (options.shard)
+    map_options.shard = {output, *options.shard};
+  else
+    simulation::check_response_path(output);
+  const std::optional<core::FileLock> claim = core::claim_output(output);
+  map_options.journal = journal_settings(options.resume, output);
   const scene_file::SceneFile scene = scene_file::SceneFile::load(options.scene);
   ProgressLine line(!options.quiet);
   const ActivityWatch watch(line);
@@ -142,17 +93,17 @@ void build(const BuildOptions& options) {
   if (!options.quiet && !file.forward_because.empty())
     std::cout << "not traced backward: " << file.forward_because << "\n";
   if (file.map.grids.empty()) {
-    std::cerr << "stopped: a map requires all its cells, so none was written; --resume goes on from here\n";
+    std::cerr << "stopped: a " << (options.shard ? "shard" : "map")
+              << " requires all its cells, so none was written; --resume goes on from here\n";
     throw CLI::RuntimeError(kInterrupted);
   }
-  simulation::write_response(options.output, file);
+  if (!options.shard) simulation::write_response(output, file);
   std::error_code ignored;
   std::filesystem::remove(map_options.journal->path, ignored);
-  if (!options.quiet) {
-    print_map(file.map);
-    std::cout << fmt::format("built in {:.3g} s\n", took.count());
-  }
-  std::cout << "map      " << options.output.string() << "\n";
+  if (!options.quiet && !options.shard) print_map(file.map);
+  if (!options.quiet) std::cout << fmt::format("built in {:.3g} s\n", took.count());
+  std::cout << (options.shard ? "shard    " : "map      ") << output.string() << "\n";
+  if (options.shard) return answer.print([&] { return Json{{"shard", output.string()}}; });
   answer.print([&] { return json_of_map(file.map); });
 }
 
@@ -222,8 +173,13 @@ void add_build(CLI::App& response) {
   command->add_option("--seed", options->seed, "seed, in place of the scene's");
   command->add_flag("-q,--quiet", options->quiet, "print only the path of the map");
   add_resume_flags(*command, options->resume);
+  add_shard_option(*command, options->shard);
   add_json_flag(*command, options->json);
-  command->footer("Example: scintray response build module.toml --pitch \"0.5 mm\" -o module_map.h5");
+  command->footer(
+      "Examples:\n"
+      "  scintray response build module.toml --pitch \"0.5 mm\" -o module_map.h5\n"
+      "  scintray response build module.toml -o module_map.h5 --shard 17/400    one of 400 jobs;\n"
+      "                                 then: scintray merge module_map.*.shard -o module_map.h5");
   command->callback([options] {
     const InterruptGuard guard;
     build(*options);

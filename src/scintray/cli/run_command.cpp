@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <charconv>
 #include <cmath>
 #include <functional>
 #include <iostream>
@@ -16,6 +15,7 @@
 #include "scintray/cli/progress.hpp"
 #include "scintray/cli/run_analysis.hpp"
 #include "scintray/cli/scene_notes.hpp"
+#include "scintray/cli/shard_option.hpp"
 #include "scintray/cli/watched_surfaces.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/file_lock.hpp"
@@ -38,9 +38,8 @@ struct RunOptions {
   bool quiet = false;
   bool quick = false;
   bool json = false;
-  std::string shard_text;         ///< "17/400"; empty: the whole run
-  simulation::Shard shard;        ///< of that text
-  std::string interval = "60 s";  ///< between checkpoints
+  std::optional<simulation::Shard> shard;  ///< none: the whole run
+  std::string interval = "60 s";           ///< between checkpoints
   bool resume = false, restart = false, no_checkpoints = false;
   std::unique_ptr<simulation::Ranks> ranks;  ///< processes of mpirun; null: this one alone
 };
@@ -52,22 +51,7 @@ std::filesystem::path output_path(const RunOptions& options, const std::filesyst
   if (!options.output.empty()) return options.output;
   std::filesystem::path results = file.spec(0).run.output;
   if (results.empty()) results = scene.stem().string() + ".h5";
-  if (options.shard_text.empty()) return results;
-  const std::size_t digits = std::to_string(options.shard.of).size();
-  return results.replace_extension(
-      fmt::format("{:0{}}-of-{}.shard", options.shard.number, digits, options.shard.of));
-}
-
-/// The shard of "17/400". @throws CLI::ValidationError
-simulation::Shard shard_of(const std::string& text) {
-  simulation::Shard shard;
-  const char* end = text.data() + text.size();
-  const auto number = std::from_chars(text.data(), end, shard.number);
-  const bool slash = number.ec == std::errc{} && number.ptr != end && *number.ptr == '/';
-  const auto of = slash ? std::from_chars(number.ptr + 1, end, shard.of) : number;
-  if (!slash || of.ec != std::errc{} || of.ptr != end || shard.number < 1 || shard.number > shard.of)
-    throw CLI::ValidationError("--shard", "\"" + text + "\" is no K/N with K from 1 to N, as 17/400");
-  return shard;
+  return options.shard ? shard_path(results, *options.shard) : results;
 }
 
 /// @throws CLI::ValidationError
@@ -143,7 +127,7 @@ tally::RunResult trace(const RunOptions& options, simulation::Simulation& simula
   simulation.build(hooks);
   InterruptGuard::keeps_results(true);
   try {
-    tally::RunResult result = simulation.run_all(sink, hooks, options.shard);
+    tally::RunResult result = simulation.run_all(sink, hooks, options.shard.value_or(simulation::Shard()));
     line.clear();
     return result;
   } catch (const core::SystemError& error) {
@@ -180,7 +164,7 @@ class Answers {
 
 void run_shard(const RunOptions& options, simulation::Simulation& simulation,
                const std::filesystem::path& output, ProgressLine& line, Answers& answers) {
-  simulation::RangeFile file(output, options.shard);
+  simulation::RangeFile file(output, *options.shard);
   const tally::RunResult result = trace(options, simulation, file, output, line);
   if (!result.partial_reason.empty()) end_stopped("there is no shard yet", !options.no_checkpoints);
   std::cout << "shard    " << output.string() << "\n";
@@ -197,7 +181,7 @@ void run_scene(const RunOptions& options, const std::filesystem::path& scene, An
   const std::optional<core::FileLock> claim = core::claim_output(output);
   simulation::Simulation simulation(file, simulation_options(options, line));
   if (!options.quiet) say_before_tracing(simulation, file, line);
-  if (!options.shard_text.empty()) return run_shard(options, simulation, output, line, answers);
+  if (options.shard) return run_shard(options, simulation, output, line, answers);
   simulation::ResultsFile results(output);
   const tally::RunResult result = trace(options, simulation, results, output, line);
   const report::RunAnalysis analyses =
@@ -262,8 +246,7 @@ void add_run_command(CLI::App& app) {
       ->transform(whole_count());
   command->add_flag("--quick", options->quick,
                     "take the scene's quick_events or quick_photons: fewer, for a test");
-  command->add_option("--shard", options->shard_text,
-                      "compute part K of N, as 17/400, for `scintray merge` (docs/scaling.md)");
+  add_shard_option(*command, options->shard);
   CLI::Option* resume = command->add_flag("--resume", options->resume,
                                           "go on after the checkpoints of a run that was stopped or killed");
   CLI::Option* restart =
@@ -284,7 +267,6 @@ void add_run_command(CLI::App& app) {
       "  scintray run scanner.toml --shard 17/400      one of 400 jobs; then: scintray merge *.shard\n"
       "  mpirun scintray run scanner.toml              all processes compute, and the first writes");
   command->callback([options] {
-    if (!options->shard_text.empty()) options->shard = shard_of(options->shard_text);
     interval_of(options->interval);
     if (options->scenes.size() > 1 && !options->output.empty())
       throw CLI::ValidationError("--output", "names one file, but several scenes are to be run");

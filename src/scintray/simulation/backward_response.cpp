@@ -1,12 +1,14 @@
 #include "scintray/simulation/detail/backward_response.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
+#include <string>
+#include <utility>
 
 #include "scintray/core/in_order.hpp"
 #include "scintray/simulation/detail/journal_pieces.hpp"
+#include "scintray/simulation/detail/map_shard.hpp"
+#include "scintray/simulation/detail/response_pieces.hpp"
 
 namespace scintray::simulation {
 
@@ -14,12 +16,6 @@ namespace {
 
 /// Points at which a cell on the boundary of its region is sampled for the volume within.
 constexpr std::uint32_t kVolumePoints = 1024;
-/// Random streams of backward light begin here; those of the cells of forward maps are numbered from 0.
-constexpr std::uint64_t kBackwardStreams = std::uint64_t{1} << 40;
-/// Pieces into which the photons of a channel are divided, so that one channel occupies many threads; maps
-/// whose times of flight are large have one, as every piece has its own.
-constexpr std::uint64_t kPieces = 8, kLargeDelays = 20'000'000;
-
 /// Point number i of the sequence of multiples of (1/g, 1/g^2, 1/g^3) modulo 1, g^4 = g + 1: even over the
 /// unit cube.
 core::Vec3 even_point(std::uint32_t i) {
@@ -51,112 +47,67 @@ std::vector<double> volumes_of(const scene::Scene& scene, const ResponseGrid& gr
   return volumes;
 }
 
-/// The grids of one medium, whose light has one spectrum.
-struct MediumGrids {
-  std::vector<ResponseGrid*> grids;
-};
-
-std::vector<MediumGrids> by_medium(const scene::Scene& scene, ResponseMap& map) {
-  std::map<core::MediumId, MediumGrids> media;
-  for (ResponseGrid& grid : map.grids) media[scene.regions[grid.region].medium].grids.push_back(&grid);
-  std::vector<MediumGrids> list;
-  for (auto& [medium, grids] : media) list.push_back(std::move(grids));
-  return list;
-}
-
-/// Moves the light of all channels into the grids of one medium.
-class GridFiller {
- public:
-  GridFiller(ResponseMap& map, const std::vector<ResponseGrid*>& grids, std::vector<ChannelLight> channels)
-      : map_(map), grids_(grids), channels_(std::move(channels)) {}
-
-  void fill(const BackwardTracer& tracer) {
-    for (std::size_t i = 0; i < grids_.size(); ++i) {
-      ResponseGrid& grid = *grids_[i];
-      for (std::size_t cell = 0; cell < grid.size(); ++cell)
-        for (const ChannelLight& light : channels_) add(grid, light, tracer.first_cells()[i] + cell);
-    }
-  }
-
- private:
-  void add(ResponseGrid& grid, const ChannelLight& light, std::size_t cell) const {
-    const auto photons = static_cast<double>(map_.photons_per_channel);
-    const double mean = light.sum[cell] / photons;
-    const double variance = std::max(0.0, light.squares[cell] / photons - mean * mean) / photons;
-    grid.detected.push_back(light.photons[cell]);
-    grid.probabilities.push_back(static_cast<float>(mean));
-    grid.probability_errors.push_back(static_cast<float>(std::sqrt(variance)));
-    const float* const delays = light.delays_ns.data() + cell * map_.delays_kept;
-    grid.delays_ns.insert(grid.delays_ns.end(), delays, delays + map_.kept(light.photons[cell]));
-  }
-
-  ResponseMap& map_;
-  const std::vector<ResponseGrid*>& grids_;
-  std::vector<ChannelLight> channels_;
-};
-
-/// Progress over all media.
-struct Work {
-  std::uint64_t done = 0, total = 0;
-};
-
-/// Light of all channels through the grids of one medium; nothing when stopped.
-std::optional<std::vector<ChannelLight>> trace_medium(const BackwardTracer& tracer,
-                                                      std::uint64_t first_stream, const RunSettings& run,
-                                                      const ResponseHooks& hooks, const ResponseMap& map,
-                                                      Work& work) {
-  const std::uint64_t pieces = tracer.cells() * map.delays_kept > kLargeDelays ? 1 : kPieces;
-  const std::uint64_t channels = map.channels.size(), photons = map.photons_per_channel;
-  std::vector<ChannelLight> lights(channels);
-  const auto trace = [&](std::uint64_t number) {
-    const std::uint64_t channel = number / pieces, piece = number % pieces;
-    const std::string key = detail::encoded(first_stream + channel, piece);  // longer than that of a cell
-    ChannelLight light;
-    if (detail::find_piece(hooks.journal, key, light.sum, light.squares, light.photons, light.delays_ns))
-      return light;
-    light = tracer.trace(channel, first_stream + channel, photons * piece / pieces,
-                         photons * (piece + 1) / pieces);
-    detail::add_piece(hooks.journal, key, light.sum, light.squares, light.photons, light.delays_ns);
-    return light;
-  };
-  const auto collect = [&](std::uint64_t number, ChannelLight& light) {
-    const std::uint64_t channel = number / pieces, piece = number % pieces;
-    core::Rng rng(run.seed, core::StreamKind::cell, first_stream + channels + channel, piece);
-    if (piece == 0)
-      lights[channel] = std::move(light);
-    else
-      lights[channel].add(light, map.delays_kept, rng);
-    work.done += photons / pieces;
-    if (hooks.progress) hooks.progress(std::min(work.done, work.total), work.total);
-  };
-  const std::uint64_t done = core::work_in_order(channels * pieces, run.threads, hooks.stop, trace, collect);
-  if (done < channels * pieces) return std::nullopt;
-  return lights;
+/// Of each grid the number of its medium: of the media in the order of their ids, from 0.
+std::vector<std::uint32_t> media_of(const scene::Scene& scene, const ResponseMap& map) {
+  std::map<core::MediumId, std::uint32_t> numbers;
+  for (const ResponseGrid& grid : map.grids) numbers[scene.regions[grid.region].medium] = 0;
+  std::uint32_t next = 0;
+  for (auto& [medium, number] : numbers) number = next++;
+  std::vector<std::uint32_t> media;
+  for (const ResponseGrid& grid : map.grids) media.push_back(numbers.at(scene.regions[grid.region].medium));
+  return media;
 }
 
 }  // namespace
 
 bool trace_backward(const scene::Scene& scene, const tally::ReadoutChannels& channels, const RunSettings& run,
                     const ResponseHooks& hooks, ResponseMap& map) {
-  const std::vector<MediumGrids> media = by_medium(scene, map);
-  Work work{0, map.photons_per_channel * map.channels.size() * media.size()};
-  std::uint64_t stream = kBackwardStreams;
-  for (const MediumGrids& medium : media) {
+  const std::vector<std::uint32_t> media = media_of(scene, map);
+  ChannelAssembly assembly(map, media);
+  std::vector<BackwardTracer> tracers;
+  for (std::size_t medium = 0; medium < assembly.media(); ++medium) {
     std::vector<const ResponseGrid*> grids;
     std::vector<std::vector<double>> volumes;
-    for (ResponseGrid* const grid : medium.grids) {
+    for (ResponseGrid* const grid : assembly.grids_of(medium)) {
       volumes.push_back(volumes_of(scene, *grid, run.threads));
       for (const double volume : volumes.back())
         grid->photons.push_back(volume > 0.0 ? map.photons_started() : 0);
       grids.push_back(grid);
     }
-    const BackwardTracer tracer(scene, channels, map, std::move(grids), std::move(volumes), run);
-    std::optional<std::vector<ChannelLight>> lights = trace_medium(tracer, stream, run, hooks, map, work);
-    if (!lights) return false;
-    GridFiller(map, medium.grids, std::move(*lights)).fill(tracer);
-    stream += 2 * map.channels.size();
+    tracers.emplace_back(scene, channels, map, std::move(grids), std::move(volumes), run);
   }
-  return true;
+  if (hooks.shard) hooks.shard->begin(map, media);
+  const tally::BlockRange pieces =
+      hooks.shard ? hooks.shard->of(assembly.pieces()) : tally::BlockRange{0, assembly.pieces()};
+  const auto photons_of = [&](const ChannelAssembly::Place& at) {
+    return tally::BlockRange{map.photons_per_channel * at.part / at.parts,
+                             map.photons_per_channel * (at.part + 1) / at.parts};
+  };
+  std::uint64_t done = 0, total = 0;
+  for (std::uint64_t piece = pieces.first; piece < pieces.last; ++piece)
+    total += photons_of(assembly.place(piece)).count();
+  const auto trace = [&](std::uint64_t number) {
+    const std::uint64_t piece = pieces.first + number;
+    const std::string key = assembly.key(piece);
+    ChannelLight light;
+    if (detail::find_piece(hooks.journal, key, light.sum, light.squares, light.photons, light.delays_ns))
+      return light;
+    const ChannelAssembly::Place at = assembly.place(piece);
+    const tally::BlockRange photons = photons_of(at);
+    light = tracers[at.medium].trace(at.channel, at.stream, photons.first, photons.last);
+    detail::add_piece(hooks.journal, key, light.sum, light.squares, light.photons, light.delays_ns);
+    return light;
+  };
+  const auto collect = [&](std::uint64_t number, ChannelLight& light) {
+    const std::uint64_t piece = pieces.first + number;
+    if (hooks.shard)
+      hooks.shard->add(piece, light);
+    else
+      assembly.add(piece, light);
+    done += photons_of(assembly.place(piece)).count();
+    if (hooks.progress) hooks.progress(done, total);
+  };
+  return core::work_in_order(pieces.count(), run.threads, hooks.stop, trace, collect) == pieces.count();
 }
 
 std::string why_not_backward(const scene::Scene& scene) {

@@ -51,9 +51,12 @@ std::string counted_work(const RunOutline& run) {
 
 }  // namespace
 
-tally::BlockRange blocks_of(const Shard& shard, const RunOutline& run) {
-  const std::uint64_t blocks = blocks_of_run(run);
+tally::BlockRange part_of(const Shard& shard, std::uint64_t blocks) {
   return {share_of(blocks, shard.number - 1, shard.of), share_of(blocks, shard.number, shard.of)};
+}
+
+tally::BlockRange blocks_of(const Shard& shard, const RunOutline& run) {
+  return part_of(shard, blocks_of_run(run));
 }
 
 tally::BlockRange blocks_of_point(const tally::BlockRange& of_run, const RunOutline& run, std::size_t point) {

@@ -18,6 +18,8 @@ struct Shard {
   bool operator==(const Shard&) const = default;
 };
 
+/// Share of a shard in a number of blocks, which are divided equally.
+tally::BlockRange part_of(const Shard& shard, std::uint64_t blocks);
 /// Blocks of a shard, counted over all points of a run; blocks of points follow each other.
 tally::BlockRange blocks_of(const Shard& shard, const RunOutline& run);
 /// Of these, the blocks of one point, counted within it. May be empty.

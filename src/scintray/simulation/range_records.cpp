@@ -13,8 +13,8 @@ RecordReader::RecordReader(std::filesystem::path name, std::unique_ptr<std::istr
 
 core::InputError RecordReader::damaged() const {
   return core::InputError({{name_.string()},
-                           "this file of block ranges is damaged or was not written to its end",
-                           "copy it again from where it was made, or compute its blocks again"});
+                           "this shard or checkpoint is damaged or was not written to its end",
+                           "copy it again from where it was made, or compute it again"});
 }
 
 Record RecordReader::next() {

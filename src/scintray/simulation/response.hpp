@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "scintray/simulation/range_file.hpp"
 #include "scintray/simulation/response_map.hpp"
 #include "scintray/simulation/simulation.hpp"
 
@@ -34,6 +35,12 @@ void check_response_path(const std::filesystem::path& path);
 /// program does not read or is inconsistent.
 ResponseFile read_response(const std::filesystem::path& path);
 
+/// A part of a map, as a file.
+struct MapShard {
+  std::filesystem::path path;
+  Shard shard;
+};
+
 struct MapOptions {
   ResponseSettings settings;
   ResponseHooks hooks;
@@ -41,14 +48,24 @@ struct MapOptions {
   /// Keeps the finished cells, and has those of before. Its file is for the caller to remove, once the map is
   /// written.
   std::optional<core::JournalSettings> journal = {};
+  std::optional<MapShard> shard = {};  ///< computes and writes this part, and not the map
 };
 
 /// Map of all parts that scintillate. The scene's [source] states whether light is polarised and, as an event
 /// source, which wavelengths are in use; its events are not traced.
-/// @return a map without grids when stopped
+/// @return a map without grids when stopped; with a shard, one whose grids have no counts
 /// @throws InputError for a scene with a sweep or a source of photons, and as build_response_map and
 ///         core::Journal do
 ResponseFile build_map(const scene_file::SceneFile& file, const MapOptions& options);
+
+/// True for a file that begins as a shard of a map does.
+bool is_map_shard(const std::filesystem::path& path);
+
+/// The map of which files are all shards, whatever their order: that which build_map makes in one process,
+/// bit for bit.
+/// @throws InputError for files that are damaged, of another map than the first, or that hold the same cells,
+///         with each of them; and for missing shards, with their numbers: a map requires all its cells
+ResponseFile merge_map_shards(const std::vector<std::filesystem::path>& files);
 
 /// Throws InputError unless the scene is that of the map: everything must be written alike except the title,
 /// [source], [run], [readout], [analysis] and tallies, and the polarisation of light must be the same.

@@ -8,6 +8,8 @@
 #include "scintray/core/sampling.hpp"
 #include "scintray/simulation/detail/backward_response.hpp"
 #include "scintray/simulation/detail/journal_pieces.hpp"
+#include "scintray/simulation/detail/map_shard.hpp"
+#include "scintray/simulation/detail/response_pieces.hpp"
 #include "scintray/source/photon_optics.hpp"
 #include "scintray/transport/step.hpp"
 
@@ -22,16 +24,6 @@ constexpr int kSurveyDraws = 256;
 constexpr int kMostDraws = 1'000'000;
 /// Address of the random stream of a cell's test points, which no photon has.
 constexpr std::uint64_t kSurvey = std::numeric_limits<std::uint64_t>::max();
-
-/// Result of the light of one cell.
-struct CellResponse {
-  std::uint32_t photons = 0;
-  std::vector<std::uint32_t> detected;        ///< per channel
-  std::vector<std::vector<float>> delays_ns;  ///< per channel
-  bool is_earlier = false;                    ///< of a journal
-};
-
-std::string key_of(std::uint64_t address) { return detail::encoded(address); }
 
 /// Traces cells of one grid.
 class CellTracer {
@@ -121,13 +113,6 @@ class CellTracer {
   core::CurveSampler emission_;
 };
 
-void append(ResponseGrid& grid, const CellResponse& response) {
-  grid.photons.push_back(response.photons);
-  grid.detected.insert(grid.detected.end(), response.detected.begin(), response.detected.end());
-  for (const std::vector<float>& delays : response.delays_ns)
-    grid.delays_ns.insert(grid.delays_ns.end(), delays.begin(), delays.end());
-}
-
 /// A map holds the response to one photon, which is then one photon at most at a sensor.
 void refuse_multiplication(const scene::Scene& scene) {
   if (multiplies_light(scene))
@@ -137,60 +122,44 @@ void refuse_multiplication(const scene::Scene& scene) {
                             "trace the scene without a map, or state statistics = \"single\""});
 }
 
-void refuse_too_large(const ResponseMap& map) {
-  const std::size_t channels = map.channels.size();
-  if (map.photons_per_channel > std::numeric_limits<std::uint32_t>::max() / channels)
-    throw core::InputError({{},
-                            std::to_string(map.photons_per_channel) + " photons from each of " +
-                                std::to_string(channels) + " channels are more than a map counts",
-                            "trace at most 4e9 in all"});
-  double cells = 0.0;
-  for (const ResponseGrid& grid : map.grids) cells += static_cast<double>(grid.size());
-  const double responses = cells * static_cast<double>(channels);
-  // A photon is detected once, so no cell keeps more delays than it has photons.
-  const double photons = map.backward() ? responses * static_cast<double>(map.photons_per_channel)
-                                        : cells * map.photons_per_cell;
-  const double delays = std::min(responses * map.delays_kept, photons);
-  if (responses <= static_cast<double>(kMostResponses) && delays <= static_cast<double>(kMostDelays)) return;
-  throw core::InputError({{},
-                          "the map would have " + std::to_string(static_cast<std::uint64_t>(cells)) +
-                              " cells for " + std::to_string(channels) + " channels, with up to " +
-                              std::to_string(static_cast<std::uint64_t>(delays)) +
-                              " delays: more than fits into memory",
-                          "choose a larger pitch, or keep fewer delays"});
-}
+/// A piece that may be of a journal.
+struct FoundCell {
+  CellResponse response;
+  bool is_earlier = false;
+};
 
-/// Traces the cells of all grids; false when stopped.
+/// Traces the cells of all grids, or those of a shard; false when stopped.
 bool trace_forward(const scene::Scene& scene, const tally::ReadoutChannels& channels, const RunSettings& run,
                    const ResponseHooks& hooks, ResponseMap& map) {
+  CellAssembly assembly(map);
   std::vector<CellTracer> tracers;
-  std::vector<std::uint64_t> first;  // address of the first cell of each grid, and the end
-  std::uint64_t total = 0;
-  for (const ResponseGrid& grid : map.grids) {
-    tracers.emplace_back(scene, channels, map, grid, run);
-    first.push_back(total);
-    total += grid.size();
-  }
-  const auto grid_of = [&](std::uint64_t address) {
-    return static_cast<std::size_t>(std::upper_bound(first.begin(), first.end(), address) - first.begin()) -
-           1;
+  for (const ResponseGrid& grid : map.grids) tracers.emplace_back(scene, channels, map, grid, run);
+  if (hooks.shard) hooks.shard->begin(map, std::vector<std::uint32_t>(map.grids.size(), 0));
+  const tally::BlockRange pieces =
+      hooks.shard ? hooks.shard->of(assembly.pieces()) : tally::BlockRange{0, assembly.pieces()};
+  const auto trace = [&](std::uint64_t number) {
+    const std::uint64_t piece = pieces.first + number;
+    FoundCell found;
+    CellResponse& cell = found.response;
+    found.is_earlier = detail::find_piece(hooks.journal, CellAssembly::key(piece), cell.photons,
+                                          cell.detected, cell.delays_ns);
+    if (found.is_earlier) return found;
+    const CellAssembly::Place at = assembly.place(piece);
+    cell = tracers[at.grid].trace(at.cell, piece);
+    return found;
   };
-  const auto trace = [&](std::uint64_t address) {
-    CellResponse earlier;
-    earlier.is_earlier = detail::find_piece(hooks.journal, key_of(address), earlier.photons, earlier.detected,
-                                            earlier.delays_ns);
-    if (earlier.is_earlier) return earlier;
-    const std::size_t grid = grid_of(address);
-    return tracers[grid].trace(address - first[grid], address);
+  const auto collect = [&](std::uint64_t number, const FoundCell& found) {
+    const std::uint64_t piece = pieces.first + number;
+    const CellResponse& cell = found.response;
+    if (hooks.shard)
+      hooks.shard->add(piece, cell);
+    else
+      assembly.add(piece, cell);
+    if (!found.is_earlier)
+      detail::add_piece(hooks.journal, CellAssembly::key(piece), cell.photons, cell.detected, cell.delays_ns);
+    if (hooks.progress) hooks.progress(number + 1, pieces.count());
   };
-  const auto collect = [&](std::uint64_t address, const CellResponse& response) {
-    append(map.grids[grid_of(address)], response);
-    if (!response.is_earlier)
-      detail::add_piece(hooks.journal, key_of(address), response.photons, response.detected,
-                        response.delays_ns);
-    if (hooks.progress) hooks.progress(address + 1, total);
-  };
-  return core::work_in_order(total, run.threads, hooks.stop, trace, collect) == total;
+  return core::work_in_order(pieces.count(), run.threads, hooks.stop, trace, collect) == pieces.count();
 }
 
 /// Whether the map is traced backward. @throws InputError where that is requested and not exact

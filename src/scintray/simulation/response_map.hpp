@@ -93,11 +93,14 @@ struct ResponseSettings {
 /// Limits of the cells times channels of a map, and of its delays: 1.6 and 2 GB in memory.
 inline constexpr std::uint64_t kMostResponses = 400'000'000, kMostDelays = 500'000'000;
 
-/// Progress, interruption and resumption of the construction. Any may be empty.
+class MapShardWriter;
+
+/// Progress, interruption and resumption of the construction, and a shard of it. Any may be empty.
 struct ResponseHooks {
   std::function<void(std::uint64_t cells, std::uint64_t of)> progress;  ///< from one thread at a time
   const std::atomic<bool>* stop = nullptr;                              ///< set from outside: stop
   core::Journal* journal = nullptr;  ///< of this very map: its cells are taken from there, others added
+  MapShardWriter* shard = nullptr;   ///< its pieces alone are traced, and added there
 };
 
 /// Response map by tracing the light of every cell, or that of every channel backward. The result does not
@@ -105,7 +108,7 @@ struct ResponseHooks {
 /// @param regions      scintillating regions, one grid each
 /// @param unpolarised  light is emitted unpolarised
 /// @param run          seed, threads and limits; a photon cut by a limit is not detected
-/// @return a map without grids when stopped
+/// @return a map without grids when stopped; of a shard, grids without their counts
 /// @throws InputError when there is no sensor, no region scintillates, or the map would exceed
 ///         kMostResponses or kMostDelays; for MapDirection::backward when why_not_backward() has a reason
 ResponseMap build_response_map(const scene::Scene& scene, const std::vector<core::RegionId>& regions,

@@ -6,6 +6,7 @@
 
 #include "scintray/config/toml_reader.hpp"
 #include "scintray/core/version.hpp"
+#include "scintray/simulation/detail/map_shard.hpp"
 
 namespace scintray::simulation {
 
@@ -109,6 +110,8 @@ std::string identity_of(const scene_file::SceneFile& file, const MapOptions& opt
       fmt::format("response map\n{}\npitch {:.17g} photons {} delays {} direction {} photons {} seed {}\n",
                   run.header.version, s.pitch_mm, s.photons_per_cell, s.delays_kept,
                   core::word_of(kMapDirections, s.direction), s.photons_per_channel, run.header.seed);
+  if (options.shard)
+    text += fmt::format("shard {}/{}\n", options.shard->shard.number, options.shard->shard.of);
   for (const core::InputFile& input : run.inputs) text += input.name + " " + input.sha256 + "\n";
   return text + file.text();
 }
@@ -136,10 +139,18 @@ ResponseFile build_map(const scene_file::SceneFile& file, const MapOptions& opti
     journal.emplace(*options.journal, identity_of(file, options, simulation.outline()));
     hooks.journal = &*journal;
   }
+  std::optional<MapShardWriter> shard;
+  if (options.shard) {
+    const RunOutline outline = simulation.outline();
+    shard.emplace(options.shard->path, options.shard->shard,
+                  MapOrigin{core::version(), spec.file.string(), file.text(), outline.inputs});
+    hooks.shard = &*shard;
+  }
   ResponseFile built{
       build_response_map(point->scene(), point->source().regions(), spec.energy_source->unpolarised,
                          options.settings, point->settings(), hooks),
       core::version(), spec.file.string(), file.text()};
+  if (shard && !built.map.grids.empty()) shard->commit();
   if (options.settings.direction == MapDirection::automatic && !built.map.backward())
     built.forward_because = why_not_backward(point->scene());
   return built;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "scintray/config/csv.hpp"
 #include "scintray/core/units.hpp"
@@ -63,30 +64,31 @@ detector::FaceGrid read_grid(const std::filesystem::path& path, double mm_per_un
                           x.places.size(),
                           y.places.size(),
                           {}};
-  constexpr double kMissing = -1.0;
-  grid.factor.assign(grid.columns * grid.rows, kMissing);
   core::Problems problems;
+  std::map<std::size_t, double> factors;  // by their place in the grid, which may be far larger than the file
   for (const config::CsvTable::Row& row : table.rows) {
     const auto i = static_cast<std::size_t>(std::lround((row.values[at_x] - x.places.front()) / x.pitch));
     const auto j = static_cast<std::size_t>(std::lround((row.values[at_y] - y.places.front()) / y.pitch));
-    double& factor = grid.factor[j * grid.columns + i];
-    if (!(row.values[at_factor] >= 0.0))
-      problems.add({table.file, row.line}, fmt::format("the factor is {:g}", row.values[at_factor]),
+    const double factor = row.values[at_factor];
+    if (!(factor >= 0.0))
+      problems.add({table.file, row.line}, fmt::format("the factor is {:g}", factor),
                    "a factor on the efficiency is 0 or more");
-    else if (factor != kMissing)
+    else if (!factors.try_emplace(j * grid.columns + i, factor).second)
       problems.add({table.file, row.line},
                    fmt::format("the point ({:g}, {:g}) occurs twice", row.values[at_x], row.values[at_y]),
                    "give each point once");
-    factor = row.values[at_factor];
   }
   problems.throw_if_any();
-  const auto missing = std::find(grid.factor.begin(), grid.factor.end(), kMissing);
-  if (missing != grid.factor.end()) {
-    const auto number = static_cast<std::size_t>(missing - grid.factor.begin());
+  for (const auto& [place, factor] : factors) {
+    if (place != grid.factor.size()) break;
+    grid.factor.push_back(factor);
+  }
+  if (grid.factor.size() < grid.columns * grid.rows) {
+    const std::size_t missing = grid.factor.size();
     throw core::InputError(
         {where,
          fmt::format("the grid of {} x {} points has none at ({:g}, {:g})", grid.columns, grid.rows,
-                     x.places[number % grid.columns], y.places[number / grid.columns]),
+                     x.places[missing % grid.columns], y.places[missing / grid.columns]),
          "give every point of the grid, outside the sensor with the factor 0"});
   }
   return grid;

@@ -5,22 +5,11 @@
 #include <vector>
 
 #include "scintray/core/curve.hpp"
+#include "scintray/simulation/detail/response_pieces.hpp"
 #include "scintray/simulation/response_map.hpp"
 #include "scintray/tally/readout_channels.hpp"
 
 namespace scintray::simulation {
-
-/// Sums over photons that were started at one channel, for the cells of all grids of one medium.
-struct ChannelLight {
-  std::vector<double> sum, squares;    ///< of the photons' contributions to the probability, per cell
-  std::vector<std::uint32_t> photons;  ///< that passed, per cell
-  /// Times of flight (ns) per cell, ResponseMap::delays_kept each: every one drawn from all paths through the
-  /// cell, with their contribution as weight.
-  std::vector<float> delays_ns;
-
-  /// Adds the light of other photons of the same channel.
-  void add(const ChannelLight& other, std::uint32_t delays_kept, core::Rng& rng);
-};
 
 /// Traces light backward through the grids of one medium.
 class BackwardTracer {
@@ -36,8 +25,6 @@ class BackwardTracer {
   ChannelLight trace(std::size_t channel, std::uint64_t stream, std::uint64_t first,
                      std::uint64_t last) const;
   std::size_t cells() const { return first_cell_.back(); }
-  /// Number of the first cell of each of the grids, among the cells of all of them.
-  const std::vector<std::size_t>& first_cells() const { return first_cell_; }
 
  private:
   friend class BackwardPhoton;
@@ -61,7 +48,8 @@ class BackwardTracer {
   core::CurveSampler emission_;
 };
 
-/// Fills the empty grids of a map, whose settings, channels and photons_per_channel are set.
+/// Fills the empty grids of a map, whose settings, channels and photons_per_channel are set, or a shard of
+/// it.
 /// @return false when stopped
 bool trace_backward(const scene::Scene& scene, const tally::ReadoutChannels& channels, const RunSettings& run,
                     const ResponseHooks& hooks, ResponseMap& map);

@@ -1,5 +1,6 @@
 #pragma once
-/// The records of a file of block ranges, and their members in the order of the file.
+/// The records of files of block ranges and of shards of response maps, and their members in the order of the
+/// file.
 
 #include <cstddef>
 #include <cstdint>
@@ -21,7 +22,8 @@ enum class Record : std::uint8_t {
   events,
   range,
   end,
-  paths
+  paths,
+  piece  ///< of a response map
 };
 
 /// First bytes of a file, and the version of its layout after them.
