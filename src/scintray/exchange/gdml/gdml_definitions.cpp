@@ -18,7 +18,7 @@ SceneDraft definitions_of_gdml(const std::string& content, const std::string& fi
     text += medium.opaque ? "\n# " + medium.material + " has no RINDEX: medium = \"opaque\"\n"
                           : "\n[media." + toml_string(medium.material) + "]\n" + medium.toml;
   }
-  definitions.for_each_child(gdml.section("solids"), [&](Node node) {
+  definitions.for_each_of("solids", [&](Node node) {
     if (std::string(node.name()) != "opticalsurface") return;
     const std::string surface_name = node.attribute("name").value();
     const ImportedSurface surface = import_surface(node, tables);

@@ -53,6 +53,7 @@ class SceneMaker {
     const std::string contacts = border_contacts();
     SceneDraft& draft = draft_;
     for (const std::string& differs : definitions_.notes()) note(differs);
+    for (const std::string& found : solids_.notes()) note(found);
     for (const std::string& found : structure_.notes) note(found);
     for (const std::string& before : options_.notes) note(before);
     if (structure_.placed.empty()) draft.missing.push_back(empty_world());

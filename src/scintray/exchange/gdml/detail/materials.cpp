@@ -21,11 +21,11 @@ class MaterialImporter {
       : tables_(tables),
         file_(tables.file()),
         definitions_(tables.definitions()),
-        substances_(file_, definitions_) {}
+        substances_(definitions_) {}
 
   std::vector<ImportedMedium> import() {
     std::vector<Node> materials;
-    definitions_.for_each_child(file_.section("materials"), [&](Node node) {
+    definitions_.for_each_of("materials", [&](Node node) {
       if (std::string(node.name()) == "material") materials.push_back(node);
     });
     std::vector<ImportedMedium> media;

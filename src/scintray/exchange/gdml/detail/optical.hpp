@@ -73,7 +73,7 @@ class OpticalTables {
 /// Compositions of materials: the isotopes, elements and materials of a file by name.
 class Substances {
  public:
-  Substances(const GdmlFile& file, const Definitions& definitions);
+  explicit Substances(const Definitions& definitions);
   /// Shares of the mass by element, as "Lu = 0.714467891, O = ..."; empty when a part of it is not stated.
   std::string mass_fractions(Node material) const;
 
