@@ -13,6 +13,7 @@ SceneDraft definitions_of_gdml(const std::string& content, const std::string& fi
   const std::string name = std::filesystem::path(file).filename().string();
   std::string text;
   for (const ImportedMedium& medium : import_materials(tables)) {
+    if (medium.problem) throw core::InputError(*medium.problem);
     for (const std::string& note : medium.notes)
       draft.notes.push_back("material " + medium.material + ": " + note);
     text += medium.opaque ? "\n# " + medium.material + " has no RINDEX: medium = \"opaque\"\n"
