@@ -200,6 +200,7 @@ constexpr std::array<Entry, 15> kEntries{
      {"davis", run_davis, davis_seeds, kPerByte},
      {"davis_reflectances", run_davis_reflectances, davis_reflectance_seeds, kPerByte},
      {"lbnl", run_lbnl, lbnl_seeds, kPerByte},
+     {"dichroic", run_dichroic, dichroic_seeds, kPerByte},
      {"any", run_any, all_seeds, kDeflate* kPerByte}}};
 
 }  // namespace
