@@ -183,7 +183,7 @@ std::vector<std::string> all_seeds() {
 /// A number of one byte becomes a double of eight, and a vector that grows holds twice its content.
 constexpr std::size_t kPerByte = 32;
 
-constexpr std::array<Entry, 15> kEntries{
+constexpr std::array<Entry, 16> kEntries{
     {{"gsf", run_format<topography::is_gsf, topography::parse_gsf>, gsf_seeds, kPerByte},
      {"gwy", run_format<topography::is_gwy, topography::parse_gwy>, gwy_seeds, kPerByte},
      {"ibw", run_format<topography::is_ibw, topography::parse_ibw>, ibw_seeds, kPerByte},
@@ -200,6 +200,7 @@ constexpr std::array<Entry, 15> kEntries{
      {"davis", run_davis, davis_seeds, kPerByte},
      {"davis_reflectances", run_davis_reflectances, davis_reflectance_seeds, kPerByte},
      {"lbnl", run_lbnl, lbnl_seeds, kPerByte},
+     {"dichroic", run_dichroic, dichroic_seeds, kPerByte},
      {"any", run_any, all_seeds, kDeflate* kPerByte}}};
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/tables/davis.hpp"
+#include "scintray/tables/geant4_finish.hpp"
 #include "scintray/tables/lbnl.hpp"
 #include "support/deflated.hpp"
 
@@ -77,6 +78,19 @@ bool run_lbnl(const std::uint8_t* data, std::size_t size) {
     for (const float value : values) require(value >= 0.0f && value <= 1.0f, "a value out of range");
   });
 }
+
+bool run_dichroic(const std::uint8_t* data, std::size_t size) {
+  return expect_numbers_or_input_error([&] {
+    const tables::DichroicTable table = tables::parse_dichroic(view(data, size), "fuzz");
+    require(table.transmittance.size() == table.angle_deg.size(), "a wrong number of rows");
+    for (const auto& row : table.transmittance) {
+      require(row.size() == table.wavelength_nm.size(), "a wrong number of values");
+      for (const double share : row) require(share >= 0.0 && share <= 1.0, "a value out of range");
+    }
+  });
+}
+
+std::vector<std::string> dichroic_seeds() { return {"4 3 2\n400 450 500.5\n0 60\n90 50 1e1\n0 100 .5\n"}; }
 
 std::vector<std::string> davis_seeds() { return {directions(), deflated(directions())}; }
 

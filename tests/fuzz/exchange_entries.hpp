@@ -13,9 +13,11 @@ bool run_davis(const std::uint8_t* data, std::size_t size);
 /// The bytes are X_LUTR, beside a sound X_LUT.
 bool run_davis_reflectances(const std::uint8_t* data, std::size_t size);
 bool run_lbnl(const std::uint8_t* data, std::size_t size);
+bool run_dichroic(const std::uint8_t* data, std::size_t size);
 
 std::vector<std::string> davis_seeds();
 std::vector<std::string> davis_reflectance_seeds();
 std::vector<std::string> lbnl_seeds();
+std::vector<std::string> dichroic_seeds();
 
 }  // namespace scintray::fuzz

@@ -185,7 +185,13 @@ std::vector<std::string> gdml_seeds() {
   GdmlText boolean = gdml_solid(
       "<box name=\"m\" x=\"2\" y=\"3\" z=\"4\"/><subtraction name=\"it\"><first "
       "ref=\"m\"/><second ref=\"m\"/><position x=\"1\"/></subtraction>");
-  return {text.text(), boolean.text()};
+  std::string entities = boolean.text();
+  entities.insert(
+      entities.find("<gdml>"),
+      "<!DOCTYPE gdml [<!ENTITY one \"1\"><!ENTITY two '&one;+&one;'><!-- - --><!ENTITY far PUBLIC \"p\" "
+      "\"far/away.xml\">]>");
+  entities.replace(entities.find("x=\"2\""), 5, "x=\"&two;\"");
+  return {text.text(), boolean.text(), entities};
 }
 
 /// A vertex of six bytes of text becomes three doubles in several copies, and its cell of the welding grid.

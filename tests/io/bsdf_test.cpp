@@ -9,7 +9,9 @@
 
 #include "io/tabulated.hpp"
 #include "scintray/core/error.hpp"
+#include "scintray/tables/import_settings.hpp"
 #include "scintray/tables/table_csv.hpp"
+#include "scintray/tables/table_side.hpp"
 #include "support/shared.hpp"
 
 using namespace scintray;
@@ -204,4 +206,67 @@ TEST_CASE("densities of the CSV times the cells' solid angles add up to reflecta
                                                          std::stod(incidence) * kDegree);
     CHECK(sum == doctest::Approx(kind == "reflected" ? reflectance : 1.0 - reflectance).epsilon(1e-4));
   }
+}
+
+TEST_CASE("a BRDF and a BTDF that were written are read back to a table of the same light") {
+  const auto folder = scratch_folder("bsdf_round_trip");
+  BsdfSettings settings;
+  const auto parsed = [&](const SurfaceTable& table, Leaving way) {
+    settings.way = way;
+    const auto path = folder / "a.bsdf";
+    write_bsdf(path, bsdf_of(table, settings), table, settings);
+    std::ifstream file(path);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    return parse_bsdf(text, "a.bsdf", way);
+  };
+  ImportSettings indices;
+  indices.index = kLsoToAir;
+  indices.from_outside = FromOutside::absorb;
+  const SurfaceTable& before = rough_table();
+  const Bsdf brdf = parsed(before, Leaving::reflected), btdf = parsed(before, Leaving::transmitted);
+  const SurfaceTable after = bsdf_table(brdf, &btdf, indices, "a");
+  const double critical = std::asin(1.0 / 1.82);
+  for (const double degrees : {0.0, 12.0, 20.0, 30.0, 47.0, 70.0}) {
+    CAPTURE(degrees);
+    const double incidence = degrees * kDegree;
+    const TableSide was(before, Side::inside), is(after, Side::inside);
+    CHECK(std::abs(is.share(Leaving::reflected, incidence) - was.share(Leaving::reflected, incidence)) <
+          0.01);
+    const double passed = is.share(Leaving::transmitted, incidence);
+    // Rough faces transmit beyond the critical angle, too, where the format has no ray to refer to.
+    if (incidence > critical)
+      CHECK(passed == 0.0);
+    else
+      CHECK(std::abs(passed - was.share(Leaving::transmitted, incidence)) < 0.01);
+    for (const Leaving way : {Leaving::reflected, Leaving::transmitted}) {
+      if (way == Leaving::transmitted && incidence > critical) continue;
+      const auto means = [&](const TableSide& side) {
+        double x = 0.0, z = 0.0;
+        constexpr int kPoints = 20'000;
+        for (int k = 0; k < kPoints; ++k) {
+          const CubePoint at = cube_point(static_cast<std::uint64_t>(k), {0.1, 0.2, 0.3});
+          const ExitAngles exit = side.direction(way, incidence, at.u, at.v);
+          x += std::sin(exit.polar) * std::cos(exit.azimuth) / kPoints;
+          z += std::cos(exit.polar) / kPoints;
+        }
+        return std::pair(x, z);
+      };
+      const auto first = means(was), second = means(is);
+      // Cells are 10 deg wide where lobes are broad, and angles between two nodes are interpolated.
+      CHECK(std::abs(first.first - second.first) < 0.02);
+      CHECK(std::abs(first.second - second.second) < 0.02);
+    }
+  }
+  CHECK(bsdf_table(brdf, nullptr, indices, "a").reflectance(Side::inside, 0.3) ==
+        doctest::Approx(after.reflectance(Side::inside, 0.3)));
+  CHECK(bsdf_table(brdf, nullptr, indices, "a").opaque());
+  std::ifstream file(folder / "a.bsdf");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  CHECK_THROWS_WITH_AS(parse_bsdf(text, "a.bsdf"), doctest::Contains("transmitted light (BTDF)"), InputError);
+  settings.way = Leaving::reflected;
+  write_bsdf(folder / "b.bsdf", bsdf_of(before, settings), before, settings);
+  std::ifstream other_file(folder / "b.bsdf");
+  const std::string other_text{std::istreambuf_iterator<char>(other_file), {}};
+  CHECK_THROWS_WITH_AS(parse_bsdf(other_text, "b.bsdf", Leaving::transmitted),
+                       doctest::Contains("reflected light (BRDF)"), InputError);
 }

@@ -134,8 +134,14 @@ TEST_CASE(
   text.define = "<matrix name=\"M\" coldim=\"2\" values=\"2 1.5 4 1.5\"/>\n";
   text.materials =
       "<material name=\"Odd\"><property name=\"RINDEX\" ref=\"M\"/><D value=\"1\"/></material>\n";
-  check_contains(error_of(text), {"RINDEX is at 2e+06 eV"});
+  check_contains(error_of(text), {"RINDEX of material \"Odd\"", "at 2e+06 eV"});
   check_contains(error_of(text), {"in MeV"});
+  text.define = "<matrix name=\"M\" coldim=\"2\" values=\"2*eV 1.5 4*eV 0.9\"/>\n";
+  check_contains(complaint_of([&] { draft_of(text.text()); }),
+                 {"test.gdml:12:23: error:", "\"Odd\"", "from 0.9 to 1.5"});
+  // Where no volume consists of it, it is of no account.
+  text.structure = gdml_volume("body", "it");
+  CHECK(error_of(text).empty());
 }
 
 TEST_CASE(

@@ -64,6 +64,7 @@ const std::filesystem::path& finish_data() {
   static const std::filesystem::path folder = [] {
     const auto made = scratch_folder("real_surface");
     write_pair(made, "Rough_LUT", ".dat");
+    write_pair(made, "Customized3_LUT", ".dat");
     write_lbnl(made / "PolishedTeflon.dat");
     return made;
   }();
@@ -264,6 +265,21 @@ TEST_CASE("GDML: surfaces of LUT and DAVIS name Geant4's tables, by words or by 
   CHECK(has(rising, "drawn once a reflection"));
   CHECK(has(finish_draft(finish_blocks(R"(model="LUT" type="dielectric_LUT" finish="groundair")", "")),
             "for which Geant4 has no table"));
+}
+
+TEST_CASE("GATE: the customized finishes of its files are pairs of the user's by their names") {
+  CHECK(tables::data_stem("CustomizedDetector_LUT") == "CustomizedDetector_LUT");
+  CHECK(tables::customized_finishes().size() == 6);
+  const auto file = scratch_folder("customized") / "SurfaceProperties.xml";
+  std::ofstream(file) << R"(<surfaces><surface model="DAVIS" name="mine" type="dielectric_LUTDAVIS" )"
+                      << R"(finish="Customized3_LUT"></surface></surfaces>)";
+  const exchange::SceneDraft draft = exchange::gate::definitions_of_gate(file, {});
+  CHECK(draft.toml.find("geant4_table = { finish = \"Customized3_LUT\"") != std::string::npos);
+  CHECK(draft.toml.find("Geant4 itself has no finish") != std::string::npos);
+  const ScopedVariable data(tables::kSurfaceDataVariable, finish_data().string());
+  const FinishLight light = light_at(finish_surface("finish = \"Customized3_LUT\""), 0.2);
+  CHECK(sigmas(binomial_estimate(light.reflected, 20'000), {0.25, 0.0}) < kSigmas);
+  CHECK(finish_problem("finish = \"Customized2_LUT\"").text().find("Customized2_LUT.z") != std::string::npos);
 }
 
 TEST_CASE("GDML: a border of DAVIS runs with Geant4's data, and without is an error that names them") {

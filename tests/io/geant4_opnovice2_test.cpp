@@ -193,14 +193,13 @@ TEST_CASE("OpNovice2 boundary: every finish of UNIFIED and GLISUR, on dielectric
     const double inside = photons - run.outside() - run.absorbed();
     compare_shares(name, "reflected", inside, photons, ours.inside);
     compare_means(run, "backward", inside, ours.backward);
-    if (run.back_painted()) {
-      // What passes the paint by TRANSMITTANCE is absorbed here, as the import states.
-      compare_shares(name, "absorbed or passed", run.outside() + run.absorbed(), photons, ours.absorbed);
-    } else {
-      compare_shares(name, "transmitted", run.outside(), photons, ours.outside);
-      compare_shares(name, "absorbed", run.absorbed(), photons, ours.absorbed);
+    compare_shares(name, "transmitted", run.outside(), photons, ours.outside);
+    compare_shares(name, "absorbed", run.absorbed(), photons, ours.absorbed);
+    // At steep facets before paint Geant4 ends some light as refracted that is on its way to the paint again
+    // (G4OpBoundaryProcess::DielectricDielectric: its flag `swap` after two refractions). It is among
+    // "Fresnel refraction", and among the forward directions, which are not comparable.
+    if (run.model != "glisur" || run.finish != "groundbackpainted")
       compare_means(run, "forward", run.outside(), ours.forward);
-    }
     ++compared;
   }
   CHECK(compared == 18);

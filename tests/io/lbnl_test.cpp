@@ -10,6 +10,7 @@
 #include "scintray/core/error.hpp"
 #include "scintray/core/statistics.hpp"
 #include "scintray/core/vec.hpp"
+#include "scintray/tables/table_side.hpp"
 #include "support/shared.hpp"
 
 using namespace scintray;
@@ -232,4 +233,61 @@ TEST_CASE("an LBNL table is read from a file") {
   CHECK(table.reflectance(Side::inside, 0.5) == 1.0);
   CHECK(table.provenance().map.find("GroundTeflon.dat") != std::string::npos);
   CHECK(table.provenance().preparation.find("mirror") != std::string::npos);
+}
+
+TEST_CASE("a table written in LBNL's layout and read back reflects the same light on its grid") {
+  // A reflector behind the face: nothing is transmitted; lobes of 12 deg about the mirrored ray.
+  std::vector<TableNode> nodes;
+  for (int degree = 0; degree <= 90; degree += 5) {
+    TableNode node;
+    node.incidence_rad = node.traced_incidence_rad = std::min(degree * kDegree, 0.5 * kPi);
+    node.reflectance = 0.9 + 0.0005 * degree;
+    node.absorptance = 1.0 - node.reflectance;
+    std::vector<ExitAngles> sample;
+    for (std::uint64_t k = 0; sample.size() < 20'000; ++k) {
+      Rng rng(63, StreamKind::other, static_cast<std::uint64_t>(degree), k);
+      const double specular = node.incidence_rad;
+      const Vec3 at = Vec3(std::sin(specular), 0.0, std::cos(specular)) +
+                      0.2 * Vec3(rng.uniform() - 0.5, rng.uniform() - 0.5, rng.uniform() - 0.5) * 4.0;
+      const Vec3 out = at.normalized();
+      if (out.z() < 0.05) continue;
+      sample.push_back({static_cast<float>(std::acos(out.z())),
+                        static_cast<float>(std::abs(std::atan2(out.y(), out.x())))});
+    }
+    node.reflected = quantiles_of(sample);
+    nodes.push_back(std::move(node));
+  }
+  const SurfaceTable before({1.82, 1.0}, nodes, nodes, {});
+  for (const char* name : {"GroundTeflon.z", "GroundTeflon.dat"}) {
+    const auto path = scratch_folder("lbnl_write") / name;
+    const std::vector<std::string> notes = write_lbnl(path, before, {});
+    REQUIRE(notes.size() == 3);
+    // The mean of 0.9 + 0.0005 degree over diffuse light: 45 deg.
+    CHECK(notes[0].find("REFLECTIVITY 0.9225") != std::string::npos);
+    const SurfaceTable after = read_lbnl(path, lbnl_import(0.9225));
+    const TableSide was(before, Side::inside), is(after, Side::inside);
+    for (const double degrees : {0.0, 20.0, 45.0, 65.0}) {
+      CAPTURE(degrees);
+      CHECK(is.share(Leaving::reflected, degrees * kDegree) == doctest::Approx(0.9225).epsilon(0.001));
+      const auto means = [&](const TableSide& side) {
+        Vec3 sum = Vec3::Zero();
+        constexpr int kPoints = 20'000;
+        for (int k = 0; k < kPoints; ++k) {
+          const CubePoint at = cube_point(static_cast<std::uint64_t>(k), {0.1, 0.2, 0.3});
+          const ExitAngles exit = side.direction(Leaving::reflected, degrees * kDegree, at.u, at.v);
+          const double x = std::sin(exit.polar) * std::cos(exit.azimuth);
+          sum += Vec3(x, x * x, std::cos(exit.polar)) / kPoints;
+        }
+        return sum;
+      };
+      // Directions move by up to half a step of the grid, 2.5 deg, at random.
+      CHECK((means(was) - means(is)).cwiseAbs().maxCoeff() < 0.01);
+    }
+  }
+  const auto folder = scratch_folder("lbnl_refused");
+  CHECK_THROWS_WITH_AS(write_lbnl(folder / "a.txt", before, {}), doctest::Contains("X.z"), InputError);
+  nodes[0].absorptance = 0.0;
+  nodes[0].transmitted = nodes[0].reflected;
+  const SurfaceTable through({1.82, 1.0}, nodes, nodes, {});
+  CHECK_THROWS_WITH_AS(write_lbnl(folder / "a.z", through, {}), doctest::Contains("transmitted"), InputError);
 }

@@ -43,6 +43,69 @@ TEST_CASE("a thin film is a list of layers from the inside, with extinction wher
                 "1 to 200 layers"));
 }
 
+TEST_CASE(
+    "a film without frustrated transmission reflects all light beyond its critical angle, one that does not "
+    "transmit absorbs the rest") {
+  // A film of 1.2 between 1.8 and 1.8: its critical angle is 41.8 deg; 20 nm pass most light at 60 deg.
+  const auto shares = [](const std::string& options, double degrees) {
+    const auto film = microsurface_of<ThinFilmSurface>(
+        own_surface("model = \"thin_film\"\nthin_film = { layers = [{ index = 1.2, thickness = \"20 nm\" }]" +
+                    options + " }\n"));
+    std::array<double, 3> of{};  // inside, outside, absorbed
+    constexpr int kRays = 20'000;
+    for (int i = 0; i < kRays; ++i) {
+      Rng rng(8, StreamKind::other, static_cast<std::uint64_t>(i));
+      Ray ray{Vec3(std::sin(degrees * kDegree), 0.0, std::cos(degrees * kDegree)), Vec3::Zero()};
+      SurfaceInteraction at{Vec3::UnitZ(), Vec3::Zero(), 450.0, rng};
+      const SurfaceOutcome outcome = film.scatter(ray, Side::inside, {1.8, 1.8}, at);
+      of[outcome == SurfaceOutcome::inside ? 0 : outcome == SurfaceOutcome::outside ? 1 : 2] += 1.0 / kRays;
+      if (outcome == SurfaceOutcome::inside) CHECK(ray.direction.z() < 0.0);
+    }
+    return of;
+  };
+  const Film layer{{1.2, 0.0}, 20.0};
+  const double law = film_response(std::cos(60.0 * kDegree), 1.8, {&layer, 1}, 1.8, 450.0).transmittance();
+  CHECK(law > 0.5);
+  const double error = 5.0 * std::sqrt(0.25 / 20'000);  // a false alarm in 1.7 million
+  CHECK(std::abs(shares("", 60.0)[1] - law) < error);
+  CHECK(shares(", frustrated_transmission = false", 60.0)[0] == doctest::Approx(1.0));
+  CHECK(shares(", frustrated_transmission = false", 41.0)[1] > 0.5);
+  const auto absorbing = shares(", transmits = false", 60.0);
+  CHECK(absorbing[1] == 0.0);
+  CHECK(std::abs(absorbing[2] - law) < error);
+  CHECK(microsurface_of<ThinFilmSurface>(own_surface(kFilm + "], transmits = false }\n")).opaque());
+}
+
+TEST_CASE("light that a reflector transmits undeflected keeps its direction in any medium") {
+  const std::string paint =
+      "model = \"smooth\"\ngap = 1.0\nreflectance = 0.2\nspecular_share = 0\ntransmittance = 0.7\n";
+  const auto through = [&](const std::string& key) {
+    SurfaceFactory factory;
+    const MaterialDatabase database = database_with(DefinitionKind::surface, "mine", paint + key);
+    const Surface surface =
+        factory
+            .make(database.surface("mine"), database.medium("air"), database.medium("glass"), 450, 400, 500)
+            .surface;
+    std::size_t same = 0, passed = 0;
+    for (std::uint64_t i = 0; i < 2000; ++i) {
+      Rng rng(9, StreamKind::other, i);
+      const Vec3 before(std::sin(0.6), 0.0, std::cos(0.6));
+      Ray ray{before, Vec3::Zero()};
+      if (surface.interact(ray, Side::inside, Vec3::UnitZ(), {1.0, 1.5}, 450.0, rng) !=
+          SurfaceOutcome::outside)
+        continue;
+      ++passed;
+      same += ray.direction.vec().isApprox(before, 1e-12);
+    }
+    CHECK(passed > 1000);
+    return std::pair(same, passed);
+  };
+  const auto kept = through("transmitted_light = \"undeflected\"\n");
+  CHECK(kept.first == kept.second);
+  CHECK(through("").first == 0);
+  CHECK(reports(own_surface_problems(paint + "transmitted_light = \"straight\"\n"), 6, "undeflected"));
+}
+
 TEST_CASE("a metal has a complex index, or facets, or neither") {
   const auto metal = microsurface_of<MetalSurface>(
       own_surface("model = \"metal\"\nmetal = { n = 0.96, k = 6.69, polish = 0.7, facets = \"geant4\" }\n"));

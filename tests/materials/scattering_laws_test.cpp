@@ -80,6 +80,7 @@ std::string mirror_with(const std::string& law, const std::string& more = "") {
   return "model = \"mirror_scatter\"\nmirror_scatter = { " + law + more + " }\n";
 }
 const std::string kAbg = "abg = { a = 0.02, b = 0.01, g = 1.6 }";
+const std::string kGaussian = "gaussian = { share = 0.6, sigma = 0.3 }";
 const std::string kHarveyShack = "harvey_shack = { b0 = 5, l = 0.05, s = -1.5 }";
 const std::string kKCorrelation =
     "k_correlation = { rms_height = \"8 nm\", knee_length = \"2 um\", exponent = 2.2 }";
@@ -161,6 +162,7 @@ std::vector<Scatterer> scatterers() {
       {"smooth | air | measured BRDF", measured(1.0, ", gap = 1.0"), false},
       {"mirror, ABg", mirror_with(kAbg), true},
       {"mirror, Harvey and Shack", mirror_with(kHarveyShack), true},
+      {"mirror, Gaussian", mirror_with(kGaussian), true},
       {"mirror, Harvey and Shack, s = -2", mirror_with("harvey_shack = { b0 = 5, l = 0.05, s = -2 }"), true},
       {"mirror, K-correlation", mirror_with(kKCorrelation), true},
       {"smooth | n 1.5 | mirror, ABg", mirror_with(kAbg, ", gap = 1.5"), true},
@@ -292,6 +294,10 @@ TEST_CASE("a mirror scatters what its law has within a distance of the specular 
   const auto harvey_within = [](double r) {
     return kTwoPi * 5.0 * 0.05 * 0.05 / 0.5 * (std::pow(1.0 + std::pow(r / 0.05, 2), 0.25) - 1.0);
   };
+  // Beyond the unit circle the light is specular: 0.6 x exp(-1 / 0.09) of it.
+  const auto gaussian_within = [](double r) {
+    return 0.6 * std::expm1(-std::pow(r / 0.3, 2)) / std::expm1(-std::pow(2.0 / 0.3, 2));
+  };
   constexpr std::uint64_t kRays = 400'000;
   const auto check = [&](const std::string& law, const auto& within) {
     const Surface surface = scattering_surface(mirror_with(law));
@@ -320,6 +326,7 @@ TEST_CASE("a mirror scatters what its law has within a distance of the specular 
   };
   check(kAbg, abg_within);
   check(kHarveyShack, harvey_within);
+  check(kGaussian, gaussian_within);
   check(kKCorrelation, k_correlation_within);
 }
 
@@ -335,6 +342,8 @@ TEST_CASE(
                 2, "more than its reflectance"));
   CHECK(reports(problems(mirror_with("abg = { a = 0.1, b = -1, g = 1 }")), 2, "above 0"));
   CHECK(reports(problems(mirror_with("abg = { a = 1e-6, b = 1e-9, g = 1 }")), 2, "the knee of the law"));
+  CHECK(reports(problems(mirror_with("gaussian = { share = 1.2, sigma = 0.1 }")), 2, "between 0 and 1"));
+  CHECK(reports(problems(mirror_with("gaussian = { share = 0.2, sigma = 6 }")), 2, "5 at most"));
   CHECK(reports(problems(mirror_with("harvey_shack = { b0 = 1, l = 0.1, s = 0.5 }")), 2, "not above 0"));
   CHECK(reports(problems(mirror_with(
                     "k_correlation = { rms_height = \"1 nm\", knee_length = \"1 um\", exponent = 1 }")),

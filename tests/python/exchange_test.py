@@ -1,7 +1,7 @@
 """Photon lists in as arrays, and ROOT trees through a stand-in for uproot, which Debian 12 does not have.
 
 The stand-in has the few members of uproot that are used: open and recreate as context managers, keys, arrays. The true
-uproot is not tested.
+uproot is tested where it is installed; elsewhere that test is skipped.
 """
 
 import contextlib
@@ -119,6 +119,62 @@ class Exchange(Case):
             'event': 'eventID', 'x': 'pX', 'y': 'posY', 'z': 'posZ', 'energy': 'edep'}), "no branch 'pX'")
         sys.modules['uproot'].files['c.root'] = {'Hits': Tree({'a': [1]})}
         self.refused(lambda: scintray.read_root_hits('c.root'), 'neither GATE 9')
+
+    def test_phase_spaces_and_ntuples_become_photon_lists(self):
+        gate9 = {'RunID': [0, 0, 1, 1], 'EventID': [4, 4, 4, 4], 'X': [0.1, 0.2, 0.3, 9], 'Y': [0, 0, 0.0, 9],
+                 'Z': [1, 2, 3.0, 9], 'dX': [0, 0, 1.0, 0], 'dY': [0, 1.0, 0, 0], 'dZ': [1.0, 0, 0, 1],
+                 'Ekine': [3e-6, 3e-6, 2.5e-6, 0.5], 'Time': [1, 2, 5.0, 9],
+                 'ParticleName': ['opticalphoton', 'opticalphoton', 'opticalphoton', 'gamma']}
+        gate10 = {'EventID': [4, 4], 'KineticEnergy': [3e-6, 2e-6], 'PreGlobalTime': [1.0, 2.0]}
+        for axis, position, direction in (('X', [1, 2.0], [0, 1.0]), ('Y', [0, 0.5], [0, 0.0]), ('Z', [3, 3.0], [1.0, 0])):
+            gate10['PrePosition_' + axis], gate10['PreDirection_' + axis] = position, direction
+        geant4 = {'px': [1.0], 'py': [2.0], 'pz': [3.0], 'ux': [0.0], 'uy': [0.0], 'uz': [1.0], 'lambda': [0.42],
+                  'ax': [1.0], 'ay': [0.0], 'az': [0.0]}
+        sys.modules['uproot'] = StandIn({'a.root': {'PhaseSpace': Tree(gate9)}, 'b.root': {'PhaseSpace': Tree(gate10)},
+                                         'c.root': {'ntuple': Tree(geant4)}})
+        old, new = scintray.read_root_photons('a.root'), scintray.read_root_photons('b.root')
+        self.assertEqual(len(old), 3)  # the gamma is left out
+        self.assertEqual(old.columns['event'].tolist(), [0, 0, 1])  # the runs are kept apart
+        np.testing.assert_allclose(old.columns['wavelength'], 1239.8419843320026 / np.array([3, 3, 2.5]))
+        np.testing.assert_allclose(old.columns['time'], [1, 2, 5])
+        np.testing.assert_allclose(old.columns['direction_y'], [0, 1, 0])
+        np.testing.assert_allclose(new.position_mm, [[1, 0, 3], [2, 0.5, 3]])
+        names = {'x': 'px', 'y': 'py', 'z': 'pz', 'dx': 'ux', 'dy': 'uy', 'dz': 'uz', 'wavelength': 'lambda',
+                 'ex': 'ax', 'ey': 'ay', 'ez': 'az'}
+        own = scintray.read_root_photons('c.root', 'ntuple', columns=names, length_unit='cm', wavelength_unit='um')
+        np.testing.assert_allclose(own.position_mm, [[10, 20, 30]])
+        np.testing.assert_allclose(own.columns['wavelength'], [420])
+        np.testing.assert_allclose(own.columns['polarisation_x'], [1])
+        self.assertNotIn('event', own.columns)
+        self.refused(lambda: scintray.read_root_photons('c.root', 'ntuple'), 'neither GATE 9', '"dx"')
+        self.refused(lambda: scintray.read_root_photons('c.root', 'ntuples'), "did you mean 'ntuple'")
+        self.refused(lambda: scintray.read_root_photons('c.root', 'ntuple', columns={'x': 'px'}), 'no branch for y')
+        del names['ez']
+        self.refused(lambda: scintray.read_root_photons('c.root', 'ntuple', columns=names), 'one or two of ex')
+        gate9['ParticleName'] = ['gamma'] * 4
+        self.refused(lambda: scintray.read_root_photons('a.root'), "'opticalphoton'")
+
+    def test_the_true_uproot_writes_and_reads_trees(self):
+        try:
+            import uproot
+        except ImportError:
+            self.skipTest('skipped: uproot is not installed (pip install uproot)')
+        path = str(self.folder / 'true.root')
+        columns = {'EventID': np.array([0, 0, 1]), 'KineticEnergy': np.array([3e-6, 3e-6, 2e-6]),
+                   'TotalEnergyDeposit': np.array([0.1, 0.2, 0.3])}
+        for axis in 'XYZ':
+            columns['PostPosition_' + axis] = columns['PrePosition_' + axis] = np.array([0.1, 0.2, 0.3])
+            columns['PreDirection_' + axis] = np.array([0.0, 0.0, 1.0]) + (axis == 'Z')
+        with uproot.recreate(path) as file:
+            file['Hits'] = columns
+        self.assertEqual(scintray.read_root_hits(path).event.tolist(), [0, 0, 1])
+        self.assertEqual(len(scintray.read_root_photons(path, 'Hits')), 3)
+        _, position, direction, wavelength, _ = some_photons(500, 2)
+        results = list_scene(photons_per_event=100).run(
+            photon_list=scintray.PhotonList(position, direction, wavelength))
+        count = scintray.write_root_photons(results, str(self.folder / 'out.root'))
+        with uproot.open(str(self.folder / 'out.root')) as file:
+            self.assertEqual(file['photons'].num_entries, count)
 
     def test_detected_photons_become_a_tree(self):
         _, position, direction, wavelength, _ = some_photons(500, 2)

@@ -27,11 +27,13 @@ std::string text(const core::Curve& curve) {
 }
 
 std::string text(const optics::Reflector& reflector) {
-  const auto& [name, reflectance, specular_share, volume_index, transmittance, polarisation] = reflector;
-  return fmt::format("reflectance {}, specular share {}, volume index {}, transmittance {}{}",
+  const auto& [name, reflectance, specular_share, volume_index, transmittance, polarisation, undeflected] =
+      reflector;
+  return fmt::format("reflectance {}, specular share {}, volume index {}, transmittance {}{}{}",
                      text(reflectance), specular_share, volume_index,
                      transmittance ? text(*transmittance) : "none",
-                     polarisation == optics::PaintPolarisation::random ? "" : ", polarisation of Geant4");
+                     polarisation == optics::PaintPolarisation::random ? "" : ", polarisation of Geant4",
+                     undeflected ? ", undeflected" : "");
 }
 
 std::string text(const topography::TableSettings& settings) {

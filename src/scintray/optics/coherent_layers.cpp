@@ -161,13 +161,20 @@ SurfaceOutcome ThinFilmSurface::scatter(Ray& ray, Side side, const IndexPair& in
     films.push_back({{layer.index(nm), layer.extinction(nm)}, layer.thickness_nm});
   if (side == Side::outside) std::reverse(films.begin(), films.end());
   const double n1 = index.on(side), n2 = index.on(other(side));
-  const FilmResponse response =
-      film_response(std::clamp(-ray.direction.dot(against), 0.0, 1.0), n1, films, n2, nm);
+  const double cos_i = std::clamp(-ray.direction.dot(against), 0.0, 1.0);
+  const double tangential = n1 * std::sqrt(1.0 - cos_i * cos_i);
+  if (!options_.frustrated && std::any_of(films.begin(), films.end(), [&](const Film& film) {
+        return film.index.imag() == 0.0 && tangential >= film.index.real();
+      })) {
+    reflect(ray, against);
+    return outcome_on(side);
+  }
+  const FilmResponse response = film_response(cos_i, n1, films, n2, nm);
   switch (interact_at_films(ray, against, response, n1, n2, interaction.rng)) {
     case FilmOutcome::reflected:
       return outcome_on(side);
     case FilmOutcome::transmitted:
-      return outcome_on(other(side));
+      return options_.transmits ? outcome_on(other(side)) : SurfaceOutcome::absorbed;
     case FilmOutcome::absorbed:
       break;
   }

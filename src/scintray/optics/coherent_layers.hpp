@@ -57,7 +57,18 @@ struct CoatingLayer {
 /// film makes circular is not carried.
 class ThinFilmSurface : public MicrosurfaceModel {
  public:
+  /// Light that is not as electrodynamics has it, as options of Geant4's type `coated`.
+  struct Options {
+    bool frustrated =
+        true;  ///< false: beyond the critical angle of a film without extinction all is reflected
+    bool transmits = true;  ///< false: light that would be transmitted is absorbed
+    bool operator==(const Options&) const = default;
+  };
   explicit ThinFilmSurface(std::vector<CoatingLayer> layers) : layers_(std::move(layers)) {}
+  ThinFilmSurface(std::vector<CoatingLayer> layers, const Options& options)
+      : layers_(std::move(layers)), options_(options) {}
+  const Options& options() const { return options_; }
+  bool opaque() const override { return !options_.transmits; }
   const std::vector<CoatingLayer>& layers() const { return layers_; }
   SurfaceOutcome scatter(Ray& ray, Side side, const IndexPair& index,
                          SurfaceInteraction& interaction) const override;
@@ -65,6 +76,7 @@ class ThinFilmSurface : public MicrosurfaceModel {
 
  private:
   std::vector<CoatingLayer> layers_;  ///< from the inside to the outside
+  Options options_;
 };
 
 /// Complex index of a metal against wavelength (nm).

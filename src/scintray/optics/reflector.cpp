@@ -27,6 +27,7 @@ void scatter_as_geant4(Ray& ray, const core::Vec3& normal, core::Rng& rng) {
 
 /// Transmitted light: through, or back where it cannot enter the medium beyond.
 SheetOutcome pass(const Reflector& reflector, Ray& ray, const SheetSide& side, core::Rng& rng) {
+  if (reflector.undeflected) return SheetOutcome::through;
   if (is_specular(reflector, rng))
     return refract_only(ray, side.normal, side.index_here, side.index_beyond) ? SheetOutcome::through
                                                                               : SheetOutcome::back;

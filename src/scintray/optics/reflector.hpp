@@ -35,6 +35,9 @@ struct Reflector {
   /// reflector, that of the volume for diffuse light from within.
   std::optional<core::Curve> transmittance = std::nullopt;
   PaintPolarisation polarisation = PaintPolarisation::random;  ///< of light reflected by Lambert's law
+  /// Transmitted light keeps its direction, whatever the indices and `specular_share`, as in Geant4 at a
+  /// back-painted face (G4OpBoundaryProcess::DoTransmission, release 11.4); it then obeys no etendue.
+  bool undeflected = false;
 };
 
 /// Outcome of light incident on a reflector.

@@ -203,6 +203,7 @@ std::string Surface::why_not_reciprocal() const {
   if (admission && admission->undeflected.max_y() > 0.0) return "it lets light through without refraction";
   if (reflector && reflector->polarisation != PaintPolarisation::random)
     return "its paint keeps the polarisation as Geant4 does";
+  if (reflector && reflector->undeflected) return "its paint lets light through without refraction";
   return {};
 }
 

@@ -110,7 +110,7 @@ std::vector<double> read_angles(Words& words, const char* name, double most) {
   return angles;
 }
 
-void read_kind(Words& words) {
+void read_kind(Words& words, Leaving way) {
   words.expect("Source");
   words.take();
   words.expect("Symmetry");
@@ -123,10 +123,12 @@ void read_kind(Words& words) {
   words.expect("Monochrome");
   words.expect("ScatterType");
   const TextWord type = words.peek();
-  if (type.text == "BTDF")
+  if (way == Leaving::reflected && type.text == "BTDF")
     words.fail(type, "the values are of transmitted light (BTDF)",
                "a measured BRDF is of reflected light; give the BRDF of the same sample");
-  words.expect("BRDF");
+  if (way == Leaving::transmitted && type.text == "BRDF")
+    words.fail(type, "the values are of reflected light (BRDF)", "give the BTDF of the same sample here");
+  words.expect(way == Leaving::reflected ? "BRDF" : "BTDF");
 }
 
 /// Sum of a block's values times the projected solid angles of their cells.
@@ -147,9 +149,9 @@ double total_of(const Bsdf& bsdf, std::size_t block) {
 
 }  // namespace
 
-Bsdf parse_bsdf(std::string_view content, const std::string& file) {
+Bsdf parse_bsdf(std::string_view content, const std::string& file, Leaving way) {
   Words words(content, file);
-  read_kind(words);
+  read_kind(words, way);
   const TextWord rotations = words.peek();
   if (read_angles(words, "SampleRotation", 360.0).size() > 1)
     words.fail(rotations, "the values depend on the orientation of the sample",
@@ -170,7 +172,7 @@ Bsdf parse_bsdf(std::string_view content, const std::string& file) {
     words.expect("TIS");
     bsdf.total.push_back(words.number(0.0, 1.0 + 1e-3, "the share of the light that is scattered (TIS)"));
     for (std::size_t i = 0; i < block; ++i)
-      bsdf.values.push_back(words.number(0.0, kGreatestBsdf_per_sr, "a value of the BRDF, in 1/sr,"));
+      bsdf.values.push_back(words.number(0.0, kGreatestBsdf_per_sr, "a value of the BSDF, in 1/sr,"));
     constexpr double kMostDeviation = 0.2;
     const double sum = total_of(bsdf, k);
     if (std::abs(sum - bsdf.total.back()) > kMostDeviation * bsdf.total.back())

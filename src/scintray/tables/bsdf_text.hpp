@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "scintray/tables/brdf_table.hpp"
+#include "scintray/tables/import_settings.hpp"
 #include "scintray/tables/table_side.hpp"
 
 namespace scintray::tables {
@@ -54,15 +55,23 @@ std::vector<double> projected_cells(const BsdfAngles& angles, double specular_ra
 void write_bsdf(const std::filesystem::path& path, const Bsdf& bsdf, const optics::SurfaceTable& table,
                 const BsdfSettings& settings);
 
-/// The scattering function of a file: reflected light of one orientation of the sample, at one wavelength.
+/// The scattering function of a file: light of one way, at one orientation of the sample and one wavelength.
 /// Azimuths may extend to 360 deg. Throws InputError, at the line of `file`, for a word or a number that is
-/// out of place or out of range, for transmitted light, several orientations and tristimulus values, and
+/// out of place or out of range, for light of the other way, several orientations and tristimulus values, and
 /// where the values of an angle of incidence integrate to a share that differs from the stated one (TIS) by a
 /// fifth or more (chosen).
-Bsdf parse_bsdf(std::string_view content, const std::string& file);
+Bsdf parse_bsdf(std::string_view content, const std::string& file, Leaving way = Leaving::reflected);
 
 /// The values above the horizon and above 0, as measured values without a wavelength (0 nm). A value of 0 is
 /// one that was not measured.
 std::vector<BrdfPoint> brdf_points(const Bsdf& bsdf);
+
+/// A surface table of scattering functions of light from inside. Between two angles both are interpolated,
+/// each about its specular ray; beyond the last one they are constant. Beyond the critical angle, where the
+/// format has no ray to refer to, nothing is transmitted. What is neither reflected nor transmitted is
+/// absorbed.
+/// @param transmitted  null: nothing is transmitted
+optics::SurfaceTable bsdf_table(const Bsdf& reflected, const Bsdf* transmitted,
+                                const ImportSettings& settings, const std::string& name);
 
 }  // namespace scintray::tables

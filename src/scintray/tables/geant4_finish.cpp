@@ -44,8 +44,17 @@ const std::vector<std::string>& davis_finishes() {
   return names;
 }
 
+const std::vector<std::string>& customized_finishes() {
+  static const std::vector<std::string> names{"Customized_LUT",  "Customized2_LUT", "Customized3_LUT",
+                                              "Customized4_LUT", "Customized5_LUT", "CustomizedDetector_LUT"};
+  return names;
+}
+
 bool is_davis_finish(const std::string& finish) {
-  return std::find(davis_finishes().begin(), davis_finishes().end(), finish) != davis_finishes().end();
+  const auto is_one_of = [&](const std::vector<std::string>& names) {
+    return std::find(names.begin(), names.end(), finish) != names.end();
+  };
+  return is_one_of(davis_finishes()) || is_one_of(customized_finishes());
 }
 
 std::optional<std::string> data_stem(const std::string& finish) {

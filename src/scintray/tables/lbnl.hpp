@@ -6,6 +6,7 @@
 /// Source of the layout and of the sampling: Geant4's own reader (G4OpticalSurface.cc,
 /// G4OpBoundaryProcess::DielectricLUT, release 11).
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -13,6 +14,7 @@
 
 #include "scintray/tables/import_settings.hpp"
 #include "scintray/tables/number_text.hpp"
+#include "scintray/tables/table_side.hpp"
 
 namespace scintray::tables {
 
@@ -42,5 +44,22 @@ optics::SurfaceTable lbnl_table(const std::vector<float>& values, const ImportSe
 /// The table of a file: parse_lbnl and lbnl_table. Throws InputError as these; the error for a missing file
 /// with the name of one of the bare finishes, for which no data exist, states this.
 optics::SurfaceTable read_lbnl(const std::filesystem::path& path, const ImportSettings& settings);
+
+struct LbnlSettings {
+  optics::Side side = optics::Side::inside;  ///< side of the light that Geant4 is to simulate
+  std::size_t slice = 0;                     ///< of the table, as from slice_at
+  std::uint64_t rays = 100'000;              ///< quasi-random points of the distribution, for each incidence
+  std::uint64_t seed = 1;
+};
+
+/// Writes the reflected light of a table in this layout, X.z or X.dat: directions in steps of 4 by 5 deg. The
+/// layout holds neither the reflectance nor transmitted light.
+///
+/// @return for the user, one sentence for each property of the table that the file does not hold, the first
+///         with the reflectance to be set
+/// @throws InputError for another name, a table that transmits more than 0.001 at an incidence, and as
+/// TableSide
+std::vector<std::string> write_lbnl(const std::filesystem::path& path, const optics::SurfaceTable& table,
+                                    const LbnlSettings& settings);
 
 }  // namespace scintray::tables

@@ -13,12 +13,13 @@ SceneDraft definitions_of_gdml(const std::string& content, const std::string& fi
   const std::string name = std::filesystem::path(file).filename().string();
   std::string text;
   for (const ImportedMedium& medium : import_materials(tables)) {
+    if (medium.problem) throw core::InputError(*medium.problem);
     for (const std::string& note : medium.notes)
       draft.notes.push_back("material " + medium.material + ": " + note);
     text += medium.opaque ? "\n# " + medium.material + " has no RINDEX: medium = \"opaque\"\n"
                           : "\n[media." + toml_string(medium.material) + "]\n" + medium.toml;
   }
-  definitions.for_each_child(gdml.section("solids"), [&](Node node) {
+  definitions.for_each_of("solids", [&](Node node) {
     if (std::string(node.name()) != "opticalsurface") return;
     const std::string surface_name = node.attribute("name").value();
     const ImportedSurface surface = import_surface(node, tables);

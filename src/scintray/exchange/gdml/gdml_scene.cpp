@@ -53,6 +53,7 @@ class SceneMaker {
     const std::string contacts = border_contacts();
     SceneDraft& draft = draft_;
     for (const std::string& differs : definitions_.notes()) note(differs);
+    for (const std::string& found : solids_.notes()) note(found);
     for (const std::string& found : structure_.notes) note(found);
     for (const std::string& before : options_.notes) note(before);
     if (structure_.placed.empty()) draft.missing.push_back(empty_world());
@@ -108,7 +109,10 @@ class SceneMaker {
 
   /// As in Geant4, which refuses names that neither the file nor its own database has (G4_...).
   void check_material(const std::string& material, Node volume) {
-    if (media_.contains(material)) return;
+    if (const ImportedMedium* medium = find_medium(material)) {
+      if (medium->problem && !options_.media.contains(material)) throw core::InputError(*medium->problem);
+      return;
+    }
     if (!material.starts_with("G4_"))
       file_.reject(volume, "no material is called \"" + material + "\"",
                    "define it in <materials>; the file has " +

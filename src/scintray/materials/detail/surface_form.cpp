@@ -18,6 +18,9 @@ using Kind = config::TomlNode::Kind;
 constexpr core::Word<optics::PaintPolarisation> kPaintPolarisations[] = {
     {"random", optics::PaintPolarisation::random}, {"geant4", optics::PaintPolarisation::geant4}};
 
+/// Direction of the light that a reflector transmits: Reflector::undeflected.
+constexpr core::Word<bool> kTransmittedLight[] = {{"as_reflected", false}, {"undeflected", true}};
+
 void drop(config::TomlNode& table, const std::string& key) {
   std::erase_if(table.items, [&](const config::TomlNode& member) { return member.key == key; });
 }
@@ -171,7 +174,8 @@ constexpr core::Word<ReflectorReader> kReflectorForms[] = {{"reflector", read_na
 void read_surface_reflector(const config::TomlTable& table, const SurfaceLookup& lookup,
                             core::Problems& problems, SurfaceSpec& surface) {
   const core::Word<ReflectorReader>* form = table.one_of(kReflectorForms, false);
-  for (const char* key : {"specular_share", "transmittance", "face_of_sheet", "polarisation_at_paint"})
+  for (const char* key :
+       {"specular_share", "transmittance", "face_of_sheet", "polarisation_at_paint", "transmitted_light"})
     table.has(key);
   if (!form) return;
   std::optional<optics::Reflector> read = form->value(table, surface, lookup, problems);
@@ -188,6 +192,10 @@ void read_surface_reflector(const config::TomlTable& table, const SurfaceLookup&
                reflector.polarisation == optics::PaintPolarisation::random || reflector.volume_index <= 0.0,
                "Geant4 has no volume-like reflector",
                "write polarisation_at_paint = \"random\", or remove it");
+  reflector.undeflected = table.choice("transmitted_light", kTransmittedLight, false);
+  table.expect("transmitted_light", !reflector.undeflected || reflector.volume_index <= 0.0,
+               "light that passes a volume-like reflector has no direction left to keep",
+               "write transmitted_light = \"as_reflected\", or remove it");
   surface.face_of_sheet = table.boolean("face_of_sheet", false);
   if (surface.face_of_sheet) check_face_of_sheet(table, surface, reflector);
   surface.reflector = surface.face_of_sheet ? optics::face_of_sheet(reflector) : std::move(reflector);

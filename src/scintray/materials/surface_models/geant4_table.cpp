@@ -77,7 +77,8 @@ std::filesystem::path data_folder_of(const config::TomlTable& table) {
 
 std::vector<std::string> finish_names() {
   std::vector<std::string> names = tables::davis_finishes();
-  names.insert(names.end(), tables::lbnl_finishes().begin(), tables::lbnl_finishes().end());
+  for (const auto* more : {&tables::customized_finishes(), &tables::lbnl_finishes()})
+    names.insert(names.end(), more->begin(), more->end());
   return names;
 }
 

@@ -105,6 +105,21 @@ class HarveyShackLaw : public ScatterLaw {
   double b0_, knee_, slope_;
 };
 
+/// share exp(-(r / sigma)^2) / (pi sigma^2), normalised over r up to 2: Zemax, knowledge base, article 219
+/// ("How to Create a User-Defined Scattering Function"), page 4, whose Gaussian_XY with equal widths this is.
+class GaussianLaw : public ScatterLaw {
+ public:
+  GaussianLaw(double share, double sigma) : share_(share), sigma_(sigma) {}
+  double total(double) const override { return share_; }
+  double distance(double u, double) const override {
+    const double all = -std::expm1(-std::pow(kFarthest / sigma_, 2));
+    return std::min(kFarthest, sigma_ * std::sqrt(-std::log1p(-u * all)));
+  }
+
+ private:
+  double share_, sigma_;
+};
+
 /// First-order perturbation of a mirror with the K-correlation spectrum of docs/surfaces.md: per unit of the
 /// reflectance 16 pi^2 / w^4 cos cos S(r / w), w the wavelength in the medium, whose integral at normal
 /// incidence is (4 pi Sq / w)^2, that of total integrated scatter. The form is that of J. C. Stover, Optical
@@ -238,6 +253,16 @@ std::shared_ptr<const ScatterLaw> read_harvey_shack(const config::TomlTable& tab
   return std::make_shared<HarveyShackLaw>(b0, knee, slope);
 }
 
+std::shared_ptr<const ScatterLaw> read_gaussian(const config::TomlTable& table) {
+  constexpr double kWidest = 5.0;  // OpticStudio's limit, at which the law is nearly Lambert's
+  const double share = read_share(table, "share", std::nullopt),
+               sigma = read_scatter_number(table, "sigma", true);
+  table.expect("sigma", sigma <= kWidest, fmt::format("\"sigma\" is {:g}; expected 5 at most", sigma),
+               "it is a distance of direction cosines: the sine of an angle from the specular direction");
+  if (!table.good("share") || !table.good("sigma")) return nullptr;
+  return std::make_shared<GaussianLaw>(share, sigma);
+}
+
 std::shared_ptr<const ScatterLaw> read_k_correlation(const config::TomlTable& table) {
   constexpr double kNmPerUm = 1e3;
   const double rms_um = read_um(table, "rms_height", 0.0, false),
@@ -252,8 +277,10 @@ std::shared_ptr<const ScatterLaw> read_k_correlation(const config::TomlTable& ta
   return std::make_shared<KCorrelationLaw>(rms_um * kNmPerUm, knee_um * kNmPerUm, exponent);
 }
 
-constexpr core::Word<LawReader> kScatterLaws[] = {
-    {"abg", read_abg}, {"harvey_shack", read_harvey_shack}, {"k_correlation", read_k_correlation}};
+constexpr core::Word<LawReader> kScatterLaws[] = {{"abg", read_abg},
+                                                  {"harvey_shack", read_harvey_shack},
+                                                  {"gaussian", read_gaussian},
+                                                  {"k_correlation", read_k_correlation}};
 
 MicrosurfaceSpec read_mirror_scatter(const config::TomlTable& surface) {
   const config::TomlTable table = surface.table("mirror_scatter");

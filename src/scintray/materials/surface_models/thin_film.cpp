@@ -48,7 +48,11 @@ SurfaceModel thin_film_model() {
           "layers",
           fmt::format("a thin film has 1 to {:g} layers, but this one has {}", kMostLayers, layers.size()),
           "list them from the inside, as layers = [{ index = 1.38, thickness = \"99.6 nm\" }]");
-    return FixedMicrosurface(optics::ThinFilmSurface(std::move(layers)), std::nullopt, std::move(curves));
+    optics::ThinFilmSurface::Options options;
+    options.frustrated = table.boolean("frustrated_transmission", true);
+    options.transmits = table.boolean("transmits", true);
+    return FixedMicrosurface(optics::ThinFilmSurface(std::move(layers), options), std::nullopt,
+                             std::move(curves));
   };
   return {.word = "thin_film", .table = "thin_film", .read = read};
 }

@@ -27,7 +27,7 @@ from .errors import (Cancelled, ClosedError, Error, InputError, InternalError, M
                      SystemFailure)
 from .mapping import Fit, ResponseMap, fit, reweight
 from .results import Events, Point, Results, open_results
-from .root import read_root_hits, write_root_photons
+from .root import read_root_hits, read_root_photons, write_root_photons
 from .scene import Mesh, Scene, quantity
 from .simulation import Deposits, PhotonList, ProgressBar, Simulation
 from .surfaces import Goniometer, HeightMap, Medium, SurfaceTable, goniometer, media, names, surfaces
@@ -39,7 +39,7 @@ __all__ = ["Analysis", "Cancelled", "ClosedError", "Deposits", "Error", "Estimat
            "HeightMap", "InputError", "InternalError", "Medium", "Mesh", "MissingPackage", "PhotonList", "Point", "Problem",
            "ProgressBar", "ResponseMap", "Results", "Scene", "Simulation", "SurfaceTable", "SystemFailure", "Tally",
            "data_folder", "errors", "fit", "goniometer", "media", "names", "open_results", "quantity",
-           "read_root_hits", "reweight", "surfaces", "write_root_photons"]
+           "read_root_hits", "read_root_photons", "reweight", "surfaces", "write_root_photons"]
 
 
 def data_folder() -> str:

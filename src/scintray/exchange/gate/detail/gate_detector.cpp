@@ -196,7 +196,8 @@ class DetectorReader {
       volume.placement.position_mm = core::Vec3(length(0), length(1), length(2));
     } else if (action == "setRotationAxis") {
       volume.rotation_axis = core::Vec3(number(command, 0), number(command, 1), number(command, 2));
-      if (!(volume.rotation_axis.norm() > 0.0)) reject(command, command.path + ": an axis of no length", "");
+      if (!(volume.rotation_axis.norm() > 0.0))
+        reject(command, command.path + ": an axis of no length", "give an axis as 0 0 1");
     } else if (action == "setRotationAngle") {
       volume.rotation_rad = quantity(command, 0, core::Dimension::angle);
     } else if (action == "alignToX") {

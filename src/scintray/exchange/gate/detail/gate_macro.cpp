@@ -58,7 +58,8 @@ class MacroReader {
       read(find_file(folder_, command.words[0], where), where);
     } else {
       if (commands_.size() >= kMostCommands)
-        throw core::InputError(core::Problem{where, "more than a million commands", ""});
+        throw core::InputError(
+            core::Problem{where, "more than a million commands", "check /control/execute and loops"});
       commands_.push_back(std::move(command));
     }
   }
@@ -87,7 +88,8 @@ class MacroReader {
       line.replace(open, close - open + 1, found->second);
       if (line.size() > 100'000) break;
     }
-    throw core::InputError(core::Problem{where, "aliases that stand for each other without end", ""});
+    throw core::InputError(core::Problem{where, "aliases that stand for each other without end",
+                                         "give an alias a value without {}"});
   }
 
   std::filesystem::path folder_;
@@ -122,8 +124,9 @@ double number(const Command& command, std::size_t index) {
   char* end = nullptr;
   const double value = std::strtod(word.c_str(), &end);
   if (end == word.c_str() || *end != '\0' || !(std::abs(value) < 1e30))
-    throw core::InputError(
-        core::Problem{command.where, command.path + ": " + core::in_quotes(word) + " is no number", ""});
+    throw core::InputError(core::Problem{command.where,
+                                         command.path + ": " + core::in_quotes(word) + " is no number",
+                                         "write a number, then its unit"});
   return value;
 }
 

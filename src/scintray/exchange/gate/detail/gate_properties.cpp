@@ -64,7 +64,10 @@ std::string GdmlDocument::text() const {
 PropertyFile::PropertyFile(const std::filesystem::path& path, const std::string& root)
     : path_(path.string()), content_(mesh::read_mesh_file(path)) {
   if (mesh::xml_depth(content_) > mesh::kDeepestNesting)
-    throw core::InputError(core::Problem{{path_}, "XML elements are nested more than 500 deep", ""});
+    throw core::InputError(
+        core::Problem{{path_},
+                      "XML elements are nested more than 500 deep",
+                      "write it again: the files of GATE have four elements in each other"});
   const pugi::xml_parse_result parsed = document_.load_buffer(content_.data(), content_.size());
   if (!parsed || std::string(document_.document_element().name()) != root)
     throw core::InputError(

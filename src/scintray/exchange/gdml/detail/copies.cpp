@@ -30,7 +30,9 @@ constexpr core::Word<const char*> kRenamed[] = {
 
 Node CopyReader::child(Node node, const char* tag) const {
   const Node found = node.child(tag);
-  if (!found) file_.reject(node, std::string("<") + node.name() + "> has no <" + tag + ">");
+  if (!found)
+    file_.reject(node, std::string("<") + node.name() + "> has no <" + tag + ">",
+                 std::string("add <") + tag + " .../>");
   return found;
 }
 
@@ -61,7 +63,9 @@ VolumeCopies CopyReader::replicas(Node replica, Node mother) const {
   if (axes != 1.0 || axis.lpNorm<1>() != axis.norm())
     file_.reject(replica, "replicas are along one of x, y, z, rho or phi", "give one of them the value 1");
   const double width = quantity(width_node), offset = offset_node ? quantity(offset_node) : 0.0;
-  if (!(width > 0.0)) file_.reject(replica, "the width of the replicas is not above 0");
+  if (!(width > 0.0))
+    file_.reject(replica, "the width of the replicas is not above 0",
+                 "give <width value=\"...\" unit=\"mm\"/>, with unit deg for replicas about z");
   VolumeCopies result;
   if (rings) {
     const LoopedNode& tube = solids_.find(solid_of(mother), mother);
@@ -136,7 +140,7 @@ VolumeCopies CopyReader::divisions(Node division, Node mother) const {
 std::string CopyReader::solid_of_parameters(Node parameters, Node dimensions) const {
   std::string kind = dimensions.name();
   kind.resize(kind.size() - kDimensions.size());
-  Node solid = solids_.new_element(kind);
+  Node solid = solids_.new_element(kind, parameters);
   for (const pugi::xml_attribute attribute : dimensions.attributes()) {
     const std::optional<const char*> renamed = core::find_word(kRenamed, attribute.name());
     const char* own = renamed ? *renamed : attribute.name();
@@ -159,7 +163,8 @@ VolumeCopies CopyReader::parameterised(Node paramvol) const {
                      Eigen::Affine3d(rotation_matrix(definitions_.rotation(parameters)).transpose());
     if (dimensions) copy.solid = solid_of_parameters(parameters, dimensions);
     if (result.copies.size() >= kMostPlaced)
-      file_.reject(parameters, "more than " + std::to_string(kMostPlaced) + " volumes are placed");
+      file_.reject(parameters, "more than " + std::to_string(kMostPlaced) + " volumes are placed",
+                   "import a part of the detector, or give fewer copies");
     result.copies.push_back(std::move(copy));
     const std::string_view kind = dimensions ? dimensions.name() : "";
     if (result.notes.empty() && (kind == "para_dimensions" || kind == "hype_dimensions"))

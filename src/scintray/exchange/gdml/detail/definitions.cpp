@@ -121,9 +121,6 @@ class Definitions::Evaluator {
     return std::isfinite(value) ? "" : "it is not a finite number";
   }
 
-  std::size_t iterations = 0;
-  LoopVariables loop_variables;
-
  private:
   mu::Parser parser_;
   std::map<std::string, double> values_;
@@ -131,8 +128,10 @@ class Definitions::Evaluator {
 
 Definitions::~Definitions() = default;
 
-Definitions::Definitions(const GdmlFile& file) : file_(file), evaluator_(std::make_unique<Evaluator>()) {
-  for_each_child(file.section("define"), [this](Node node) { define(node); });
+Definitions::Definitions(const GdmlFile& file) : file_(file), loops_(std::make_unique<Loops>()) {
+  scopes_.resize(file.document_count());
+  for (Scope& scope : scopes_) scope.evaluator = std::make_unique<Evaluator>();
+  for_each_of("define", [this](Node node) { define(node); });
 }
 
 void Definitions::define(Node node) {
@@ -143,22 +142,25 @@ void Definitions::define(Node node) {
       {"scale", Kind::scale},           {"matrix", Kind::matrix}};
   const std::optional<Kind> kind = core::find_word(kKinds, node.name());
   const std::string own = name(node.attribute("name").value(), node);
+  Scope& scope = scopes_[file_.document_of(node)];
   if (kind == Kind::number) {
-    evaluator_->set(own, number(node, "value"));
+    scope.evaluator->set(own, number(node, "value"));
   } else if (kind == Kind::quantity) {
-    evaluator_->set(own, number(node, "value") * (node.attribute("unit") ? number(node, "unit") : 1.0));
+    scope.evaluator->set(own, number(node, "value") * (node.attribute("unit") ? number(node, "unit") : 1.0));
   } else if (kind == Kind::expression) {
-    evaluator_->set(own, evaluate(node.text().as_string(), node));
+    scope.evaluator->set(own, evaluate(node.text().as_string(), node));
   } else if (kind == Kind::position) {
-    positions_[own] = vector(node, "mm");
+    scope.positions[own] = vector(node, "mm");
   } else if (kind == Kind::rotation) {
-    rotations_[own] = vector(node, "rad");
+    scope.rotations[own] = vector(node, "rad");
   } else if (kind == Kind::scale) {
-    scales_[own] = vector(node, "1", 1.0);
+    scope.scales[own] = vector(node, "1", 1.0);
   } else if (kind == Kind::matrix) {
-    Matrix& matrix = matrices_[own];
+    Matrix& matrix = scope.matrices[own];
     const double columns = number(node, "coldim");
-    if (!(columns >= 1.0 && columns <= 1000.0)) file_.reject(node, "a matrix of no columns, or of over 1000");
+    if (!(columns >= 1.0 && columns <= 1000.0))
+      file_.reject(node, "a matrix of no columns, or of over 1000",
+                   "give coldim=\"2\" to a table of energies and values, coldim=\"1\" to a number");
     matrix.columns = static_cast<std::size_t>(columns);
     matrix.values.clear();
     if (!node.attribute("values") && matrix.columns == 1) {
@@ -171,7 +173,7 @@ void Definitions::define(Node node) {
     std::istringstream words(file_.required(node, "values"));
     for (std::string word; words >> word;) {
       if (matrix.values.size() >= kMostMatrixNumbers)
-        file_.reject(node, "a matrix of over 10 million numbers");
+        file_.reject(node, "a matrix of over 10 million numbers", "give fewer rows");
       matrix.values.push_back(evaluate(word, node));
     }
     if (matrix.values.empty() || matrix.values.size() % matrix.columns != 0)
@@ -179,7 +181,7 @@ void Definitions::define(Node node) {
                    "matrix \"" + own + "\" has " + std::to_string(matrix.values.size()) +
                        " numbers, which do not fill " + std::to_string(matrix.columns) + " columns",
                    "give every row all its numbers");
-    name_elements(own, matrix);
+    name_elements(own, matrix, *scope.evaluator);
   } else {
     file_.reject(
         node, std::string("<") + node.name() + "> in <define> is not known",
@@ -187,21 +189,21 @@ void Definitions::define(Node node) {
   }
 }
 
-void Definitions::name_elements(const std::string& name, const Matrix& matrix) {
+void Definitions::name_elements(const std::string& name, const Matrix& matrix, Evaluator& evaluator) {
   const std::size_t rows = matrix.values.size() / matrix.columns;
   constexpr std::size_t kMostNamed = 10'000;
   if (matrix.values.size() > kMostNamed) return;
   const bool one_index = rows == 1 || matrix.columns == 1;
   for (std::size_t i = 0; i < matrix.values.size(); ++i)
-    evaluator_->set(one_index ? name + "_" + std::to_string(i)
-                              : name + "_" + std::to_string(i / matrix.columns) + "_" +
-                                    std::to_string(i % matrix.columns),
-                    matrix.values[i]);
+    evaluator.set(one_index ? name + "_" + std::to_string(i)
+                            : name + "_" + std::to_string(i / matrix.columns) + "_" +
+                                  std::to_string(i % matrix.columns),
+                  matrix.values[i]);
 }
 
 double Definitions::evaluate(const std::string& expression, Node where) const {
   double value = 0.0;
-  const std::string trouble = evaluator_->evaluate(expression, value);
+  const std::string trouble = scope(where).evaluator->evaluate(expression, value);
   if (!trouble.empty())
     file_.reject(where, "cannot evaluate \"" + expression + "\": " + trouble,
                  "expected numbers, names defined above, units as in 2*mm, and + - * / ^ ( )");
@@ -236,9 +238,13 @@ std::string Definitions::name(const std::string& text, Node where) const {
   std::string result = text;
   for (std::size_t open = result.find('['); open != std::string::npos; open = result.find('[')) {
     const std::size_t close = result.find(']', open);
-    if (close == std::string::npos) file_.reject(where, "\"" + text + "\" has a [ without its ]");
+    if (close == std::string::npos)
+      file_.reject(where, "\"" + text + "\" has a [ without its ]",
+                   "write name[i] for the variable i of a loop");
     const double value = evaluate(result.substr(open + 1, close - open - 1), where);
-    if (std::abs(value) > 1e9) file_.reject(where, "\"" + text + "\" has an index above 1e9");
+    if (std::abs(value) > 1e9)
+      file_.reject(where, "\"" + text + "\" has an index above 1e9",
+                   "check the limits of the loop around it");
     result.replace(open, close - open + 1, "_" + std::to_string(std::lround(value)));
   }
   return result;
@@ -257,35 +263,42 @@ core::Vec3 Definitions::referred(const std::map<std::string, core::Vec3>& known,
 }
 
 core::Vec3 Definitions::position(Node node, const std::string& tag) const {
-  return referred(positions_, node, tag, "mm", 0.0);
+  return referred(scope(node).positions, node, tag, "mm", 0.0);
 }
 core::Vec3 Definitions::rotation(Node node, const std::string& tag) const {
-  return referred(rotations_, node, tag, "rad", 0.0);
+  return referred(scope(node).rotations, node, tag, "rad", 0.0);
 }
-core::Vec3 Definitions::scale(Node node) const { return referred(scales_, node, "scale", "1", 1.0); }
+core::Vec3 Definitions::scale(Node node) const {
+  return referred(scope(node).scales, node, "scale", "1", 1.0);
+}
 
 const core::Vec3& Definitions::position_named(const std::string& wanted, Node where) const {
-  const auto found = positions_.find(wanted);
-  if (found == positions_.end())
+  const auto& positions = scope(where).positions;
+  const auto found = positions.find(wanted);
+  if (found == positions.end())
     file_.reject(where, "no position is called \"" + wanted + "\"", "define it in <define>");
   return found->second;
 }
 
-const Matrix* Definitions::matrix(const std::string& wanted) const {
-  const auto found = matrices_.find(wanted);
-  return found == matrices_.end() ? nullptr : &found->second;
+const Matrix* Definitions::matrix(const std::string& wanted, Node where) const {
+  const auto& matrices = scope(where).matrices;
+  const auto found = matrices.find(wanted);
+  return found == matrices.end() ? nullptr : &found->second;
 }
 
-std::optional<double> Definitions::constant(const std::string& wanted) const {
-  const double* value = evaluator_->find(wanted);
+std::optional<double> Definitions::constant(const std::string& wanted, Node where) const {
+  const double* value = scope(where).evaluator->find(wanted);
   return value ? std::optional(*value) : std::nullopt;
 }
 
-const LoopVariables& Definitions::loop_variables() const { return evaluator_->loop_variables; }
-
 void Definitions::set_loop_variables(const LoopVariables& variables) const {
-  evaluator_->loop_variables = variables;
-  for (const auto& [variable, value] : variables) evaluator_->set(variable, value);
+  loops_->variables = variables;
+  for (const auto& [variable, value] : variables)
+    scopes_[variable.first].evaluator->set(variable.second, value);
+}
+
+void Definitions::for_each_of(const std::string& section, const std::function<void(Node)>& action) const {
+  for (const Node node : file_.sections(section)) for_each_child(node, action);
 }
 
 void Definitions::for_each_child(Node parent, const std::function<void(Node)>& action) const {
@@ -295,18 +308,20 @@ void Definitions::for_each_child(Node parent, const std::function<void(Node)>& a
       action(child);
       continue;
     }
+    const std::size_t document = file_.document_of(child);
     const std::string variable = file_.required(child, "for");
     const double from = number(child, "from", 0.0), to = number(child, "to"),
                  step = number(child, "step", 1.0);
     if (!(step > 0.0)) file_.reject(child, "a loop whose step is not above 0", "give step=\"1\"");
     for (double value = from; value <= to + 1e-9 * step; value += step) {
-      if (++evaluator_->iterations > kMostIterations)
-        file_.reject(child, "the loops of the file have over 200000 steps together");
-      evaluator_->set(variable, value);
-      evaluator_->loop_variables[variable] = value;
+      if (++loops_->iterations > kMostIterations)
+        file_.reject(child, "the loops of the file have over 200000 steps together",
+                     "check \"to\" and \"step\": 200000 volumes is the most that a scene of GDML places");
+      scopes_[document].evaluator->set(variable, value);
+      loops_->variables[{document, variable}] = value;
       for_each_child(child, action);
     }
-    evaluator_->loop_variables.erase(variable);
+    loops_->variables.erase({document, variable});
   }
 }
 

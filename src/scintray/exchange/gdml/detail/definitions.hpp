@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "scintray/core/vec.hpp"
@@ -19,11 +20,12 @@ struct Matrix {
   std::vector<double> values;
 };
 
-/// Variables of the loops around an element, with the values that they had when it was read. A later
-/// evaluation restores them.
-using LoopVariables = std::map<std::string, double>;
+/// Variables of the loops around an element, each of the file with this number, with the values that they had
+/// when it was read. A later evaluation restores them.
+using LoopVariables = std::map<std::pair<std::size_t, std::string>, double>;
 
-/// Definitions and expressions of a file. Values are in Geant4's units: mm, ns, MeV, rad, MeV ns2/mm2 (mass).
+/// Definitions and expressions of a file and its modules, of which each has its own, as in Geant4: names are
+/// those of the file of the element. Values are in Geant4's units: mm, ns, MeV, rad, MeV ns2/mm2 (mass).
 class Definitions {
  public:
   /// Reads <define>, loops expanded. Throws InputError at the first expression that cannot be evaluated.
@@ -53,31 +55,45 @@ class Definitions {
   core::Vec3 scale(Node node) const;
   const core::Vec3& position_named(const std::string& name, Node where) const;
   /// nullptr, or empty, when there is none of that name.
-  const Matrix* matrix(const std::string& name) const;
-  std::optional<double> constant(const std::string& name) const;
+  const Matrix* matrix(const std::string& name, Node where) const;
+  std::optional<double> constant(const std::string& name, Node where) const;
 
   /// Calls `action` for the children of a node, those in <loop>s once for every value of the loop's variable.
   void for_each_child(Node parent, const std::function<void(Node)>& action) const;
+  /// The same for all sections of a name, of the file and its modules.
+  void for_each_of(const std::string& section, const std::function<void(Node)>& action) const;
 
   /// Entries that Geant4 reads differently from their apparent meaning.
   const std::vector<std::string>& notes() const { return notes_; }
 
-  const LoopVariables& loop_variables() const;
+  const LoopVariables& loop_variables() const { return loops_->variables; }
   void set_loop_variables(const LoopVariables& variables) const;
 
  private:
   class Evaluator;
+  /// What one file defines.
+  struct Scope {
+    std::unique_ptr<Evaluator> evaluator;
+    std::map<std::string, core::Vec3> positions, rotations, scales;
+    std::map<std::string, Matrix> matrices;
+  };
+  const Scope& scope(Node node) const { return scopes_[file_.document_of(node)]; }
   void define(Node node);
   /// Elements of a matrix by name in expressions: NAME_0 of a row or column, else NAME_0_1 (GDML User's
   /// Guide, section "Matrices").
-  void name_elements(const std::string& name, const Matrix& matrix);
+  static void name_elements(const std::string& name, const Matrix& matrix, Evaluator& evaluator);
   core::Vec3 referred(const std::map<std::string, core::Vec3>& known, Node node, const std::string& tag,
                       const char* default_unit, double fallback) const;
 
+  /// Loops of all files together.
+  struct Loops {
+    LoopVariables variables;
+    std::size_t iterations = 0;
+  };
+
   const GdmlFile& file_;
-  std::unique_ptr<Evaluator> evaluator_;
-  std::map<std::string, core::Vec3> positions_, rotations_, scales_;
-  std::map<std::string, Matrix> matrices_;
+  std::vector<Scope> scopes_;  ///< by the number of the file
+  std::unique_ptr<Loops> loops_;
   std::vector<std::string> notes_;
 };
 

@@ -86,7 +86,7 @@ VolumeCopy DividedSolid::box(const Division& division, int number, Node origin) 
   const double at = -0.5 * sides[axis] + middle_of_copy(division, number);
   sides[axis] = division.width;
   const Node solid =
-      filled(solids_.new_element("box"), {{"x", sides.x()}, {"y", sides.y()}, {"z", sides.z()}});
+      filled(solids_.new_element("box", origin), {{"x", sides.x()}, {"y", sides.y()}, {"z", sides.z()}});
   return {moved(core::Vec3::Unit(axis) * at), solids_.add(solid, origin)};
 }
 
@@ -99,12 +99,12 @@ VolumeCopy DividedSolid::para(const Division& division, int number, Node origin)
   const core::Vec3 along[] = {core::Vec3::UnitX(),
                               {std::tan(alpha), 1.0, 0.0},
                               {std::tan(theta) * std::cos(phi), std::tan(theta) * std::sin(phi), 1.0}};
-  const Node solid = filled(solids_.new_element("para"), {{"x", sides.x()},
-                                                          {"y", sides.y()},
-                                                          {"z", sides.z()},
-                                                          {"alpha", alpha},
-                                                          {"theta", theta},
-                                                          {"phi", phi}});
+  const Node solid = filled(solids_.new_element("para", origin), {{"x", sides.x()},
+                                                                  {"y", sides.y()},
+                                                                  {"z", sides.z()},
+                                                                  {"alpha", alpha},
+                                                                  {"theta", theta},
+                                                                  {"phi", phi}});
   return {moved(at * along[axis]), solids_.add(solid, origin)};
 }
 
@@ -114,11 +114,11 @@ VolumeCopy DividedSolid::trd(const Division& division, int number, Node origin) 
   if (division.axis == DivisionAxis::z) {
     const double low = division.offset + number * division.width, high = low + division.width;
     const auto between = [&](double a, double b, double at) { return a + (b - a) * at / z; };
-    const Node solid = filled(solids_.new_element("trd"), {{"x1", between(x1, x2, low)},
-                                                           {"x2", between(x1, x2, high)},
-                                                           {"y1", between(y1, y2, low)},
-                                                           {"y2", between(y1, y2, high)},
-                                                           {"z", division.width}});
+    const Node solid = filled(solids_.new_element("trd", origin), {{"x1", between(x1, x2, low)},
+                                                                   {"x2", between(x1, x2, high)},
+                                                                   {"y1", between(y1, y2, low)},
+                                                                   {"y2", between(y1, y2, high)},
+                                                                   {"z", division.width}});
     return {moved(core::Vec3::UnitZ() * (0.5 * (low + high) - 0.5 * z)), solids_.add(solid, origin)};
   }
   const bool along_x = division.axis == DivisionAxis::x;
@@ -126,15 +126,15 @@ VolumeCopy DividedSolid::trd(const Division& division, int number, Node origin) 
   const double share = middle_of_copy(division, number) / mean - 0.5;  // of the width, from the middle
   const double shift = share * (high - low);
   const double width_low = division.width * low / mean, width_high = division.width * high / mean;
-  const Node solid = filled(solids_.new_element("trap"), {{"z", z},
-                                                          {"theta", std::atan(shift / z)},
-                                                          {"phi", along_x ? 0.0 : 0.5 * core::kPi},
-                                                          {"y1", along_x ? y1 : width_low},
-                                                          {"x1", along_x ? width_low : x1},
-                                                          {"x2", along_x ? width_low : x1},
-                                                          {"y2", along_x ? y2 : width_high},
-                                                          {"x3", along_x ? width_high : x2},
-                                                          {"x4", along_x ? width_high : x2}});
+  const Node solid = filled(solids_.new_element("trap", origin), {{"z", z},
+                                                                  {"theta", std::atan(shift / z)},
+                                                                  {"phi", along_x ? 0.0 : 0.5 * core::kPi},
+                                                                  {"y1", along_x ? y1 : width_low},
+                                                                  {"x1", along_x ? width_low : x1},
+                                                                  {"x2", along_x ? width_low : x1},
+                                                                  {"y2", along_x ? y2 : width_high},
+                                                                  {"x3", along_x ? width_high : x2},
+                                                                  {"x4", along_x ? width_high : x2}});
   return {moved((along_x ? core::Vec3::UnitX() : core::Vec3::UnitY()) * (share * mean)),
           solids_.add(solid, origin)};
 }
@@ -167,8 +167,8 @@ VolumeCopy DividedSolid::cone(const Division& division, int number, Node origin)
     copy.in_mother = moved(core::Vec3::UnitZ() * (middle_of_copy(division, number) - 0.5 * z));
     z = division.width;
   }
-  const Node solid =
-      filled(solids_.new_element(kind()), {{"z", z}, {"startphi", angle("startphi")}, {"deltaphi", extent}});
+  const Node solid = filled(solids_.new_element(kind(), origin),
+                            {{"z", z}, {"startphi", angle("startphi")}, {"deltaphi", extent}});
   if (tube)
     filled(solid, {{"rmin", inner[0]}, {"rmax", outer[0]}});
   else
@@ -181,7 +181,7 @@ VolumeCopy DividedSolid::planes(const Division& division, int number, Node origi
   const bool rings = division.axis == DivisionAxis::rho;
   VolumeCopy copy;
   if (!rings) copy.in_mother = turned(division, number);
-  const Node solid = filled(solids_.new_element(kind()),
+  const Node solid = filled(solids_.new_element(kind(), origin),
                             {{"startphi", angle("startphi")},
                              {"deltaphi", rings ? angle("deltaphi", core::kTwoPi) : division.width}});
   if (kind() == "polyhedra")

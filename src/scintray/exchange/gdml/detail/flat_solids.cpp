@@ -127,9 +127,12 @@ class FlatSolid : public SolidReader {
         const core::Vec3 corner = vertex(facet, name);
         facets.back().push_back(relative && !facets.back().empty() ? facets.back().front() + corner : corner);
       }
-      if (facets.back().size() < 3) mesh::reject_shape("a facet of fewer than 3 corners");
+      if (facets.back().size() < 3)
+        mesh::reject_shape("a facet of fewer than 3 corners", "give vertex1, vertex2 and vertex3");
     });
-    if (facets.empty()) mesh::reject_shape("a tessellated solid without facets");
+    if (facets.empty())
+      mesh::reject_shape("a tessellated solid without facets",
+                         "add <triangular .../> or <quadrangular .../>");
     return from_facets(facets);
   }
 

@@ -21,11 +21,11 @@ class MaterialImporter {
       : tables_(tables),
         file_(tables.file()),
         definitions_(tables.definitions()),
-        substances_(file_, definitions_) {}
+        substances_(definitions_) {}
 
   std::vector<ImportedMedium> import() {
     std::vector<Node> materials;
-    definitions_.for_each_child(file_.section("materials"), [&](Node node) {
+    definitions_.for_each_of("materials", [&](Node node) {
       if (std::string(node.name()) == "material") materials.push_back(node);
     });
     std::vector<ImportedMedium> media;
@@ -56,7 +56,8 @@ class MaterialImporter {
     const EnergyTable index = table(material, "RINDEX");
     medium.opaque = index.empty();
     if (medium.opaque) return medium;
-    require_light(material, index);
+    medium.problem = problem_of(material, index);
+    if (medium.problem) return medium;
     medium.index = "index = { n = " + curve(index, "") + group_index(material, medium) + " }\n";
     EnergyTable rayleigh = table(material, "RAYLEIGH");
     if (rayleigh.empty()) rayleigh = density_fluctuations(material, name, index);
@@ -80,17 +81,33 @@ class MaterialImporter {
     return medium;
   }
 
-  /// Throws where no energy of the index is one of light: a matrix without units is in MeV.
-  void require_light(Node material, const EnergyTable& index) const {
+  /// Why a medium cannot have this index, if it cannot: no energy is one of light (a matrix without units is
+  /// in MeV), or a value is none of a medium in a scene.
+  std::optional<core::Problem> problem_of(Node material, const EnergyTable& index) const {
+    const core::FileLocation where =
+        file_.where(material.find_child_by_attribute("property", "name", "RINDEX"));
+    const auto [low, high] = std::minmax_element(index.value.begin(), index.value.end());
+    constexpr double kGreatest = 5.0;
+    if (*low < 1.0 || *high > kGreatest)
+      return core::Problem{
+          where,
+          fmt::format(
+              "the RINDEX of material \"{}\" runs from {:g} to {:g}, where an index lies between 1 and 5",
+              material.attribute("name").value(), *low, *high),
+          "check its matrix, whose second column holds indices; --medium MATERIAL=DATABASE_MEDIUM replaces "
+          "the "
+          "material"};
     constexpr double kLowest_eV = 0.0124, kHighest_eV = 124.0;  // 100 um to 10 nm
     const bool of_light = std::any_of(index.energy_eV.begin(), index.energy_eV.end(), [](double energy_eV) {
       return energy_eV >= kLowest_eV && energy_eV <= kHighest_eV;
     });
-    if (of_light || index.value.size() < 2) return;
-    file_.reject(material,
-                 fmt::format("its RINDEX is at {:.4g} eV to {:.4g} eV, where light has 0.0124 eV to 124 eV",
-                             index.energy_eV.front(), index.energy_eV.back()),
-                 "an energy without a unit is in MeV: write 3.1*eV in the matrix");
+    if (of_light || index.value.size() < 2) return std::nullopt;
+    return core::Problem{
+        where,
+        fmt::format(
+            "the RINDEX of material \"{}\" is at {:.4g} eV to {:.4g} eV, where light has 0.0124 eV to 124 eV",
+            material.attribute("name").value(), index.energy_eV.front(), index.energy_eV.back()),
+        "an energy without a unit is in MeV: write 3.1*eV in the matrix"};
   }
 
   /// Lengths of Rayleigh scattering (mm) that Geant4 computes without a RAYLEIGH, for a material called

@@ -73,7 +73,7 @@ class OpticalTables {
 /// Compositions of materials: the isotopes, elements and materials of a file by name.
 class Substances {
  public:
-  Substances(const GdmlFile& file, const Definitions& definitions);
+  explicit Substances(const Definitions& definitions);
   /// Shares of the mass by element, as "Lu = 0.714467891, O = ..."; empty when a part of it is not stated.
   std::string mass_fractions(Node material) const;
 
@@ -97,9 +97,10 @@ struct ImportedMedium {
   std::string index;     ///< of these, its index
   /// Shortest length of absorption, scattering and wavelength shifting at any wavelength; infinite without.
   double shortest_mm = std::numeric_limits<double>::infinity();
-  bool opaque = false;             ///< no RINDEX: Geant4 stops light that enters it
-  bool scintillates = false;       ///< has yield, emission and decay times
-  std::vector<std::string> notes;  ///< what was not converted
+  bool opaque = false;                     ///< no RINDEX: Geant4 stops light that enters it
+  std::optional<core::Problem> problem{};  ///< why it cannot be converted: an error where it is used
+  bool scintillates = false;               ///< has yield, emission and decay times
+  std::vector<std::string> notes;          ///< what was not converted
 };
 
 /// Every <material>, in file order; of several of one name the first, as in Geant4. Tables over energy become
@@ -141,8 +142,8 @@ inline std::string gap_name(const std::string& surface) { return "gap of " + sur
 
 /// An <opticalsurface>, in words or in Geant4's numbers: models glisur and unified, types
 /// dielectric_dielectric, dielectric_metal and coated, the six finishes polished to groundbackpainted; types
-/// dielectric_LUT and dielectric_LUTDAVIS with the finishes of their tables, which the scene names. Dichroic
-/// tables are not in the file and cannot be converted.
+/// dielectric_LUT and dielectric_LUTDAVIS with the finishes of their tables, and dielectric_dichroic, which
+/// the scene names.
 ImportedSurface import_surface(Node surface, const OpticalTables& tables);
 
 }  // namespace scintray::exchange::gdml

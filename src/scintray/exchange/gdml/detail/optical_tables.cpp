@@ -129,7 +129,7 @@ bool is_over_photon_energy(const std::string& name) {
 OpticalTables::OpticalTables(const GdmlFile& file, const Definitions& definitions)
     : file_(file), definitions_(definitions) {
   for (const char* section : {"materials", "solids"})
-    definitions_.for_each_child(file_.section(section), [&](Node owner) {
+    definitions_.for_each_of(section, [&](Node owner) {
       for (const Node child : owner.children("property")) {
         const std::string name = child.attribute("name").value();
         if (!is_over_photon_energy(name)) continue;
@@ -148,8 +148,8 @@ EnergyTable OpticalTables::property(Node owner, const std::string& name) const {
   EnergyTable table;
   if (!node || !node.attribute("ref")) return table;
   const std::string reference = definitions_.name(node.attribute("ref").value(), node);
-  const Matrix* matrix = definitions_.matrix(reference);
-  if (!matrix && definitions_.constant(reference)) return table;
+  const Matrix* matrix = definitions_.matrix(reference, node);
+  if (!matrix && definitions_.constant(reference, node)) return table;
   if (!matrix) file_.reject(node, "no matrix is called \"" + reference + "\"", "define it in <define>");
   if (matrix->columns < 2) return table;
   std::vector<std::pair<double, double>> rows;
@@ -176,8 +176,8 @@ std::optional<double> OpticalTables::constant(Node owner, std::initializer_list<
     const Node node = property_node(owner, name);
     if (!node || !node.attribute("ref")) continue;
     const std::string reference = definitions_.name(node.attribute("ref").value(), node);
-    if (const Matrix* matrix = definitions_.matrix(reference)) return matrix->values.front();
-    return definitions_.constant(reference);
+    if (const Matrix* matrix = definitions_.matrix(reference, node)) return matrix->values.front();
+    return definitions_.constant(reference, node);
   }
   return std::nullopt;
 }

@@ -71,11 +71,14 @@ Eigen::Matrix3d rotation_matrix(const core::Vec3& angles_rad) {
 
 Solids::Solids(const GdmlFile& file, const Definitions& definitions, const mesh::Tessellation& tessellation)
     : file_(file), definitions_(definitions), tessellation_(tessellation) {
-  definitions_.for_each_child(file_.section("solids"), [this](Node node) {
+  definitions_.for_each_of("solids", [this](Node node) {
     const std::string name = definitions_.name(file_.required(node, "name"), node);
-    auto& known = std::string(node.name()) == "opticalsurface" ? surfaces_ : solids_;
-    if (!known.emplace(name, LoopedNode{node, definitions_.loop_variables()}).second)
-      file_.reject(node, "the name \"" + name + "\" is already taken", "give every solid a name of its own");
+    const bool is_surface = std::string(node.name()) == "opticalsurface";
+    if (!(is_surface ? surfaces_ : solids_)
+             .emplace(name, LoopedNode{node, definitions_.loop_variables()})
+             .second)
+      notes_.push_back(std::string("a second ") + (is_surface ? "optical surface" : "solid") + " \"" + name +
+                       "\": the first is used, as in Geant4");
   });
 }
 
@@ -98,8 +101,15 @@ std::optional<std::string> Solids::exact_shape(const std::string& name, Node whe
   return gdml::exact_shape(solid, definitions_, tessellation_);
 }
 
-Node Solids::new_element(const std::string& kind) {
-  Node element = added_.append_child(kind.c_str());
+Node Solids::added_beside(Node origin) {
+  constexpr const char* kAdded = "solids_of_copies";
+  Node root = origin.root();
+  Node added = root.child(kAdded);
+  return added ? added : root.append_child(kAdded);
+}
+
+Node Solids::new_element(const std::string& kind, Node origin) {
+  Node element = added_beside(origin).append_child(kind.c_str());
   element.append_attribute("lunit") = "mm";
   element.append_attribute("aunit") = "rad";
   return element;
@@ -110,7 +120,8 @@ std::string Solids::add(Node element, Node origin) {
   std::string name;
   do name = base + std::to_string(origins_.size());
   while (solids_.contains(name) || origins_.contains(name));
-  Node own = element.parent() == added_ ? element : Node(added_.append_copy(element));
+  Node added = added_beside(origin);
+  Node own = element.parent() == added ? element : added.append_copy(element);
   own.remove_attribute("name");
   own.append_attribute("name") = name.c_str();
   solids_.emplace(name, LoopedNode{own, definitions_.loop_variables()});
@@ -148,6 +159,10 @@ const mesh::TriMesh& Solids::mesh(const std::string& name, Node where) {
     std::vector<core::Problem> problems = error.problems();
     for (core::Problem& problem : problems) {
       if (!problem.where.file.empty()) continue;
+      if (problem.hint.empty())
+        problem.hint =
+            "check its dimensions and their units; --skip-unsupported leaves out the volumes of solids that "
+            "cannot be made";
       problem.where = this->where(name, solid);
       problem.what = "solid \"" + name + "\" (" + solid.name() + "): " + problem.what;
     }
@@ -159,9 +174,12 @@ const mesh::TriMesh& Solids::mesh(const std::string& name, Node where) {
 Solids::Entered::Entered(Solids& solids, const std::string& name, Node solid)
     : making_(solids.in_the_making_) {
   if (std::find(making_.begin(), making_.end(), name) != making_.end())
-    solids.file_.reject(solid, "solid \"" + name + "\" contains itself");
+    solids.file_.reject(solid, "solid \"" + name + "\" contains itself",
+                        "refer to solids that are made without it");
   constexpr std::size_t kDeepest = 500;
-  if (making_.size() >= kDeepest) solids.file_.reject(solid, "booleans are nested more than 500 deep");
+  if (making_.size() >= kDeepest)
+    solids.file_.reject(solid, "booleans are nested more than 500 deep",
+                        "write them as a <multiUnion>, or as a tessellated solid");
   making_.push_back(name);
 }
 
@@ -238,13 +256,15 @@ void Solids::add_bodies(Node solid, const Eigen::Affine3d& to, std::vector<mesh:
   };
   for (const Node node : solid.children("multiUnionNode")) {
     const Node reference = node.child("solid");
-    if (!reference) file_.reject(node, "<multiUnionNode> has no <solid>");
+    if (!reference) file_.reject(node, "<multiUnionNode> has no <solid>", "add <solid ref=\"...\"/>");
     add(reference, placement(definitions_.position(node), definitions_.rotation(node)));
   }
   if (std::string_view(solid.name()) != "union") return;
   const auto operand = [&](const char* tag) {
     const Node reference = solid.child(tag);
-    if (!reference) file_.reject(solid, std::string("a boolean has no <") + tag + ">");
+    if (!reference)
+      file_.reject(solid, std::string("a boolean has no <") + tag + ">",
+                   std::string("add <") + tag + " ref=\"...\"/>");
     return reference;
   };
   add(operand("first"), placement(definitions_.position(solid, "firstposition"),
@@ -257,7 +277,9 @@ void Solids::add_bodies(Node solid, const Eigen::Affine3d& to, std::vector<mesh:
 mesh::TriMesh Solids::make_union(Node solid) {
   std::vector<mesh::TriMesh> bodies;
   add_bodies(solid, Eigen::Affine3d::Identity(), bodies);
-  if (bodies.empty()) file_.reject(solid, "<multiUnion> has no <multiUnionNode>");
+  if (bodies.empty())
+    file_.reject(solid, "<multiUnion> has no <multiUnionNode>",
+                 "add <multiUnionNode name=\"...\"><solid ref=\"...\"/></multiUnionNode>");
   const auto larger = [](const mesh::TriMesh& a, const mesh::TriMesh& b) {
     return a.triangles.size() > b.triangles.size();
   };
@@ -288,7 +310,9 @@ mesh::TriMesh Solids::make_transformed(Node solid) {
     name = definitions_.name(solid.attribute("solid").value(), solid);
   } else {
     const Node reference = solid.child("solidref");
-    if (!reference) file_.reject(solid, std::string("<") + solid.name() + "> refers to no solid");
+    if (!reference)
+      file_.reject(solid, std::string("<") + solid.name() + "> refers to no solid",
+                   "add <solidref ref=\"...\"/>");
     scale = definitions_.scale(solid);
     name = definitions_.name(file_.required(reference, "ref"), reference);
   }
@@ -300,7 +324,9 @@ mesh::TriMesh Solids::make_transformed(Node solid) {
 mesh::TriMesh Solids::make_boolean(Node solid) {
   const auto operand = [&](const char* tag) {
     const Node reference = solid.child(tag);
-    if (!reference) file_.reject(solid, std::string("a boolean has no <") + tag + ">");
+    if (!reference)
+      file_.reject(solid, std::string("a boolean has no <") + tag + ">",
+                   std::string("add <") + tag + " ref=\"...\"/>");
     return referred(reference);
   };
   const mesh::TriMesh first =

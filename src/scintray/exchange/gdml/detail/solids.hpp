@@ -24,7 +24,7 @@ namespace scintray::exchange::gdml {
 /// two, so that bodies that touch along a cylinder mostly have the same.
 class Solids {
  public:
-  /// Throws InputError when two solids have one name.
+  /// Of several solids, or optical surfaces, of one name the first is used, as in Geant4.
   Solids(const GdmlFile& file, const Definitions& definitions, const mesh::Tessellation& tessellation);
 
   /// The mesh of a solid. Throws InputError, with its name and place, for one that does not exist, is not
@@ -50,7 +50,9 @@ class Solids {
   /// of its own. Its expressions are evaluated with the present loop variables. Returns its name.
   std::string add(Node element, Node origin);
   /// An element without attributes, to be filled and added: lengths in mm, angles in rad.
-  Node new_element(const std::string& kind);
+  Node new_element(const std::string& kind, Node origin);
+  /// Entries that Geant4 reads differently from their apparent meaning.
+  const std::vector<std::string>& notes() const { return notes_; }
 
  private:
   Node element(const std::string& name, Node where) const { return find(name, where).node; }
@@ -77,16 +79,17 @@ class Solids {
   std::vector<std::string> operands(Node solid) const;
   bool has_flat_sides(Node solid) const;
   core::FileLocation where(const std::string& name, Node solid) const;
+  /// The element that holds added solids, in the document of `origin`, whose definitions they use.
+  static Node added_beside(Node origin);
 
   const GdmlFile& file_;
   const Definitions& definitions_;
   mesh::Tessellation tessellation_;
   std::map<std::string, LoopedNode> solids_, surfaces_;
-  pugi::xml_document added_;             ///< elements of solids that were added
-  std::map<std::string, Node> origins_;  ///< of these by name
+  std::map<std::string, Node> origins_;  ///< of added solids by name
   std::map<std::string, mesh::TriMesh> made_;
   std::map<std::string, bool> round_;
-  std::vector<std::string> in_the_making_;
+  std::vector<std::string> in_the_making_, notes_;
 };
 
 /// The rotation about x, then y, then z by the angles (rad) of a <rotation>.

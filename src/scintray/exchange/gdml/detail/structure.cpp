@@ -28,11 +28,8 @@ class StructureReader {
       : file_(file), definitions_(definitions), copies_(file, definitions, solids) {}
 
   Structure read() {
-    definitions_.for_each_child(file_.section("structure"), [this](Node node) { remember(node); });
-    const Node world = file_.section("setup").child("world");
-    if (!world)
-      file_.reject(file_.section("structure"), "the file does not state which volume is the world",
-                   "add <setup name=\"Default\" version=\"1.0\"><world ref=\"...\"/></setup>");
+    remember_document(0);
+    const Node world = world_of(0, file_.section("structure"));
     structure_.world_volume = reference(world);
     const Node volume = structure_.world = find(structure_.world_volume, world).node;
     structure_.world_material = reference(child(volume, "materialref"));
@@ -43,6 +40,26 @@ class StructureReader {
   }
 
  private:
+  /// <world> of the setup of a file, by G4GDMLReadSetup::GetSetup: of several setups the one called
+  /// "Default".
+  Node world_of(std::size_t document, Node where) const {
+    Node chosen;
+    for (Node setup = file_.section("setup", document); setup; setup = setup.next_sibling("setup"))
+      if (!chosen || std::string(setup.attribute("name").value()) == "Default") chosen = setup;
+    const Node world = chosen.child("world");
+    if (!world)
+      file_.reject(where, "the file does not state which volume is the world",
+                   "add <setup name=\"Default\" version=\"1.0\"><world ref=\"...\"/></setup>");
+    return world;
+  }
+
+  void remember_document(std::size_t document) {
+    if (!remembered_.insert(document).second) return;
+    for (Node section = file_.section("structure", document); section;
+         section = section.next_sibling("structure"))
+      definitions_.for_each_child(section, [this](Node node) { remember(node); });
+  }
+
   void remember(Node node) {
     const std::optional<Element> element = element_of(node);
     if (element == Element::volume || element == Element::assembly) {
@@ -53,7 +70,9 @@ class StructureReader {
     } else if (element == Element::border) {
       const Node first = child(node, "physvolref");
       const Node second = first.next_sibling("physvolref");
-      if (!second) file_.reject(node, "a border between fewer than two <physvolref>s");
+      if (!second)
+        file_.reject(node, "a border between fewer than two <physvolref>s",
+                     "add <physvolref ref=\"...\"/> for the volumes that light leaves and enters");
       structure_.surfaces.push_back(
           {file_.required(node, "surfaceproperty"), "", reference(first), reference(second), node});
     } else {
@@ -66,6 +85,8 @@ class StructureReader {
     const std::string name = definitions_.name(file_.required(node, "name"), node);
     if (!volumes_.try_emplace(name, LoopedNode{node, definitions_.loop_variables()}).second)
       structure_.notes.push_back("a second volume \"" + name + "\": the first is used, as in Geant4");
+    // Geant4 reads a module where a volume places it.
+    for_each_module(node, [this](Node module) { remember_document(file_.module_of(module)); });
     for (const Node inner : node.children()) {
       const std::optional<Element> element = element_of(inner);
       if (element != Element::border && element != Element::skin) continue;
@@ -85,7 +106,9 @@ class StructureReader {
 
   Node child(Node node, const char* tag) const {
     const Node found = node.child(tag);
-    if (!found) file_.reject(node, std::string("<") + node.name() + "> has no <" + tag + ">");
+    if (!found)
+      file_.reject(node, std::string("<") + node.name() + "> has no <" + tag + ">",
+                   std::string("add <") + tag + " ref=\"...\"/>");
     return found;
   }
 
@@ -109,20 +132,26 @@ class StructureReader {
   }
 
   void place(Node physvol, const Eigen::Affine3d& mother_to_world, std::optional<std::size_t> mother) {
-    if (const Node other = physvol.child("file"))
-      file_.reject(other,
-                   std::string("the volume is in another file, \"") + other.attribute("name").value() + "\"",
-                   "merge both files, or import each by itself");
-    const Node reference_node = child(physvol, "volumeref");
-    const std::string volume = reference(reference_node);
+    const Node module = physvol.child("file");
+    const Node reference_node = module ? module : child(physvol, "volumeref");
+    const std::string volume = module ? volume_of(module) : reference(reference_node);
     Eigen::Affine3d own = Eigen::Translation3d(definitions_.position(physvol)) *
                           Eigen::Affine3d(rotation_matrix(definitions_.rotation(physvol)).transpose());
     own.linear() *= definitions_.scale(physvol).asDiagonal();
     if (!own.matrix().allFinite() || own.linear().determinant() == 0.0)
-      file_.reject(physvol, "a placement that leaves no volume: its scale is 0 or not finite");
+      file_.reject(physvol, "a placement that leaves no volume: its scale is 0 or not finite",
+                   "give <scale x=\"1\" y=\"1\" z=\"1\"/>, or -1 for a mirror image");
     const std::string name =
         physvol.attribute("name") ? definitions_.name(physvol.attribute("name").value(), physvol) : volume;
     add({name, placement_of(physvol), ""}, volume, reference_node, mother_to_world * own, mother);
+  }
+
+  /// Name of the volume that a <file> places: of the module's world without `volname`. As in Geant4 names are
+  /// those of all files together.
+  std::string volume_of(Node module) const {
+    if (const pugi::xml_attribute name = module.attribute("volname"); name && *name.value() != '\0')
+      return name.value();
+    return reference(world_of(file_.module_of(module), module));
   }
 
   struct Physvol {
@@ -136,13 +165,16 @@ class StructureReader {
     const auto& [element, variables] = find(volume, where);
     const LoopScope scope(definitions_, variables);
     if (!inside_.insert(volume).second)
-      file_.reject(where, "volume \"" + volume + "\" is placed inside itself");
-    if (inside_.size() > 500) file_.reject(where, "volumes are nested more than 500 deep");
+      file_.reject(where, "volume \"" + volume + "\" is placed inside itself",
+                   "place another volume here; a name stands for the first volume of this name in all files");
+    if (inside_.size() > 500)
+      file_.reject(where, "volumes are nested more than 500 deep", "place volumes beside each other");
     if (element_of(element) == Element::assembly) {
       place_daughters(element, to_world, mother);
     } else {
       if (structure_.placed.size() >= kMostPlaced)
-        file_.reject(where, "more than " + std::to_string(kMostPlaced) + " volumes are placed");
+        file_.reject(where, "more than " + std::to_string(kMostPlaced) + " volumes are placed",
+                     "import a part of the detector, or give fewer copies");
       PlacedVolume placed{physvol.name,
                           volume,
                           reference(child(element, "materialref")),
@@ -183,6 +215,7 @@ class StructureReader {
   std::map<std::string, LoopedNode> volumes_;
   std::map<std::pair<const void*, LoopVariables>, std::size_t> placements_;
   std::set<std::string> inside_;
+  std::set<std::size_t> remembered_;  ///< files whose structure is known
 };
 
 }  // namespace

@@ -51,8 +51,7 @@ struct Structure {
 /// Structure of the file from the world of <setup> on. A <physvol> is placed as in Geant4: rotated by the
 /// inverse of its rotation, moved by its position, after its scale. Assemblies are expanded; replicas,
 /// divisions and parameterised volumes (CopyReader) are placed one by one. Throws InputError for references
-/// without a target, a volume inside itself, volumes of other files, divisions that are not read, and more
-/// than kMostPlaced volumes.
+/// without a target, a volume inside itself, divisions that are not read, and more than kMostPlaced volumes.
 /// @param solids  receives those of copies with dimensions of their own
 Structure read_structure(const GdmlFile& file, const Definitions& definitions, Solids& solids);
 

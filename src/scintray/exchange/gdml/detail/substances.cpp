@@ -16,8 +16,8 @@ double total(const std::map<std::string, double>& masses) {
 
 }  // namespace
 
-Substances::Substances(const GdmlFile& file, const Definitions& definitions) : definitions_(definitions) {
-  definitions_.for_each_child(file.section("materials"), [&](Node node) {
+Substances::Substances(const Definitions& definitions) : definitions_(definitions) {
+  definitions_.for_each_of("materials", [&](Node node) {
     by_name_.emplace(definitions_.name(node.attribute("name").value(), node), node);
   });
 }

@@ -70,6 +70,8 @@ class SurfaceImporter {
       coated();
     } else if (type_ == kTypes[2] || type_ == kTypes[3]) {
       tabulated();
+    } else if (type_ == kTypes[4]) {
+      dichroic();
     } else if (!known_model || !known_finish) {
       note("model \"" + model_ + "\", finish \"" + finish_ +
            "\": its table is not in the file, and its type \"" + type_ + "\" does not name one of Geant4's");
@@ -129,16 +131,24 @@ class SurfaceImporter {
     }
     if (least(reflectivity_table) >= 1.0) return "";
     if (most(transmittance) <= 0.0) return "admitted = " + reflectivity() + "\n";
-    // One random number decides in Geant4: TRANSMITTANCE takes at most what REFLECTIVITY leaves.
-    EnergyTable admitted, passed;
-    std::set<double> energies(reflectivity_table.energy_eV.begin(), reflectivity_table.energy_eV.end());
-    energies.insert(transmittance.energy_eV.begin(), transmittance.energy_eV.end());
-    admitted.energy_eV = passed.energy_eV = {energies.begin(), energies.end()};
+    const SharesOfOneNumber both = shares_of_one_number(reflectivity_table, transmittance);
+    return "admitted = " + curve(both.first) + "\nundeflected = " + curve(both.second) + "\n";
+  }
+
+  /// Two shares that one random number decides on in Geant4: the second takes at most what the first leaves.
+  struct SharesOfOneNumber {
+    EnergyTable first, second;
+  };
+  static SharesOfOneNumber shares_of_one_number(const EnergyTable& first, const EnergyTable& second) {
+    SharesOfOneNumber both;
+    std::set<double> energies(first.energy_eV.begin(), first.energy_eV.end());
+    energies.insert(second.energy_eV.begin(), second.energy_eV.end());
+    both.first.energy_eV = both.second.energy_eV = {energies.begin(), energies.end()};
     for (const double energy : energies) {
-      admitted.value.push_back(std::clamp(value_at(reflectivity_table, energy), 0.0, 1.0));
-      passed.value.push_back(std::clamp(value_at(transmittance, energy), 0.0, 1.0 - admitted.value.back()));
+      both.first.value.push_back(std::clamp(value_at(first, energy), 0.0, 1.0));
+      both.second.value.push_back(std::clamp(value_at(second, energy), 0.0, 1.0 - both.first.value.back()));
     }
-    return "admitted = " + curve(admitted) + "\nundeflected = " + curve(passed) + "\n";
+    return both;
   }
 
   /// Values beyond 0 and 1 as Geant4 takes them: never, or always.
@@ -228,10 +238,6 @@ class SurfaceImporter {
     }
     const bool dispersive = most(gap) - least(gap) > 1e-9;
     if (dispersive) result_.gap_index = curve(gap);
-    if (most(table("TRANSMITTANCE")) > 0.0)
-      note(
-          "its TRANSMITTANCE, by which light passes the paint with its direction in the gap: it is absorbed "
-          "here");
     const std::string table_name = smeared() ? "glisur" : "unified";
     result_.toml = (smeared() ? "model = \"glisur\"\nspecular_share = " +
                                     std::string(finish_.starts_with("polished") ? "1.0" : "0.0") + "\n"
@@ -239,7 +245,19 @@ class SurfaceImporter {
                    facets(table_name) +
                    (dispersive ? "gap = \"" + gap_name(surface_.attribute("name").value()) + "\"\n"
                                : fmt::format("gap = {:.9g}\n", gap.value.front())) +
-                   "reflectance = " + reflectivity() + "\n";
+                   paint_behind_gap();
+  }
+
+  /// Reflectance and transmittance of the paint of a back-painted face, where Geant4 draws both by one
+  /// number; light passes it with its direction in the gap.
+  std::string paint_behind_gap() {
+    const EnergyTable transmittance = table("TRANSMITTANCE");
+    if (most(transmittance) <= 0.0) return "reflectance = " + reflectivity() + "\n";
+    EnergyTable reflectance = table("REFLECTIVITY");
+    if (reflectance.empty()) reflectance = {{transmittance.energy_eV.front()}, {1.0}};
+    const SharesOfOneNumber both = shares_of_one_number(reflectance, transmittance);
+    return "reflectance = " + curve(both.first) + "\ntransmittance = " + curve(both.second) +
+           "\ntransmitted_light = \"undeflected\"\n";
   }
 
   /// One film that interferes, between the two media.
@@ -251,16 +269,34 @@ class SurfaceImporter {
       result_.toml = "base = \"geant4_polished\"\n";
       return;
     }
+    // G4OpBoundaryProcess::CoatedDielectricDielectric: without frustrated transmission all light beyond the
+    // film's critical angle is reflected; with an EFFICIENCY above 0 all that is transmitted is absorbed.
+    std::string options;
     if (tables_.constant(surface_, {"COATEDFRUSTRATEDTRANSMISSION"}).value_or(0.0) == 0.0)
-      note(
-          "COATEDFRUSTRATEDTRANSMISSION is off: beyond the film's critical angle Geant4 reflects all light; "
-          "here "
-          "the evanescent wave transmits what it does");
-    if (!result_.efficiency.empty())
-      note("the EFFICIENCY of a coated face, by which Geant4 absorbs all light that it transmits");
-    result_.efficiency.clear();
+      options += ", frustrated_transmission = false";
+    if (!result_.efficiency.empty()) {
+      options += ", transmits = false";
+      if (least(table("EFFICIENCY")) <= 0.0)
+        note("its EFFICIENCY is 0 at some energies: Geant4 transmits light there, which is absorbed here");
+    }
+    if (finish_ != kFinishes[0]) note("its finish " + finish_ + ", the facets of a coated face: smooth");
     result_.toml = "model = \"thin_film\"\nthin_film = { layers = [{ index = " + curve(index) +
-                   fmt::format(", thickness = \"{:.9g} mm\" }}] }}\n", *thickness_mm);
+                   fmt::format(", thickness = \"{:.9g} mm\" }}]", *thickness_mm) + options + " }\n";
+  }
+
+  /// A dichroic filter, whose file G4DICHROICDATA names (G4OpBoundaryProcess::DielectricDichroic): what is
+  /// not transmitted, undeflected, is reflected; REFLECTIVITY, TRANSMITTANCE and EFFICIENCY have no part in
+  /// it.
+  void dichroic() {
+    note(
+        "its table is read from the file that G4DICHROICDATA names when the scene is: set it, or write "
+        "geant4_dichroic = { file = \"...\" }");
+    result_.efficiency.clear();
+    const bool mirror = glisur() || finish_ == kFinishes[0];
+    if (!mirror && unified() && lobes_given())
+      note("the facets and lobes of a dichroic face: what they would reflect is reflected by Lambert's law");
+    result_.toml = std::string("model = \"angular\"\nangular = { transmitted = \"undeflected\", ") +
+                   (mirror ? "" : "reflected = \"lambertian\", ") + "geant4_dichroic = {} }\n";
   }
 
   /// Geant4's tables: type dielectric_LUT with a finish of LBNL, dielectric_LUTDAVIS with one of Davis. They
@@ -276,6 +312,8 @@ class SurfaceImporter {
         "its table " + *stem +
         " is read from Geant4's data RealSurface when the scene is: set G4REALSURFACEDATA, or write folder = "
         "\"...\" beside its finish");
+    if (finish_.starts_with("Customized"))
+      note("Geant4 itself has no finish " + finish_ + ": it is the pair of this name in the folder");
     const EnergyTable reflectivity_table = table("REFLECTIVITY"), transmittance = table("TRANSMITTANCE");
     std::string keys = "finish = \"" + finish_ + "\", from_outside = \"same\"";
     if (davis && !result_.efficiency.empty()) keys += ", unreflected = \"absorbed\"";
