@@ -178,6 +178,31 @@ TEST_CASE("The analysis of orders finds the best photon near that of the bound")
   CHECK(analyze_orders(std::vector<std::vector<double>>(20, {0.1}), 5).single.empty());
 }
 
+TEST_CASE("The quoted CTR of few and of many events is one quantity, with an error of its own size") {
+  // Two-sided exponentials, which no Gaussian describes; 0.1195 of them are below -ln(1 / 0.239).
+  constexpr double kTruth = 2.8622;
+  constexpr int kSamples = 300;
+  core::Rng rng(7, core::StreamKind::other, 1);
+  for (const int values : {60, 127, 128, 400, 1000}) {
+    CAPTURE(values);
+    double squares = 0.0, fitted = 0.0;
+    for (int sample = 0; sample < kSamples; ++sample) {
+      std::vector<double> differences;
+      for (int i = 0; i < values; ++i)
+        differences.push_back(core::sample_exponential(rng) - core::sample_exponential(rng));
+      const Spread spread = spread_of(differences);
+      const core::Estimate quoted = quoted_fwhm(spread);
+      squares += std::pow((quoted.value - kTruth) / quoted.error, 2);
+      if (spread.fit.converged) fitted += spread.gaussian_fwhm.value / kSamples;
+    }
+    const double width = std::sqrt(squares / kSamples);
+    CAPTURE(width);
+    CAPTURE(fitted);
+    // The error of a root mean square is 0.04; the error itself is known to 30 % only for 60 values.
+    CHECK(std::abs(width - 1.0) < 4 * 0.04 + 0.05);
+  }
+}
+
 TEST_CASE("Pairs use each event once and leave out events without a time") {
   const double none = std::numeric_limits<double>::quiet_NaN();
   CHECK(paired_differences(std::vector<double>{1.0, none, 4.0, 9.0, 2.0, 5.0}) ==

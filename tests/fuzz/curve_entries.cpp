@@ -58,14 +58,15 @@ void require_finite(const core::Curve& curve) {
 bool run_curves(const std::uint8_t* data, std::size_t size) {
   return read_csv_or_input_error(data, size, [](const std::filesystem::path& path) {
     const std::string file = "{ file = \"" + path.string() + "\", wavelength_unit = \"nm\", value_column = ";
-    const auto database =
-        with_own(DefinitionKind::medium, "index = { n = " + file + "\"n\" } }\nabsorption = { length = " + file +
-                                             "\"length\", value_unit = \"mm\" } }\nscattering = { none = true }\n" +
-                                             "yield = { value = \"10 1/keV\" }\nemission = { spectrum = " + file +
-                                             "\"light\" } }\ndecay = [{ time = \"40 ns\", rise = \"0 ns\", "
-                                             "fraction = 1 }]\n");
+    const auto database = with_own(DefinitionKind::medium,
+                                   "index = { n = " + file + "\"n\" } }\nabsorption = { length = " + file +
+                                       "\"length\", value_unit = \"mm\" } }\nscattering = { none = true }\n" +
+                                       "yield = { value = \"10 1/keV\" }\nemission = { spectrum = " + file +
+                                       "\"light\" } }\ndecay = [{ time = \"40 ns\", rise = \"0 ns\", "
+                                       "fraction = 1 }]\n");
     const optics::Medium& medium = database.medium("own");
-    for (const core::Curve* curve : {&medium.index, &medium.absorption_per_mm, &medium.emission}) require_finite(*curve);
+    for (const core::Curve* curve : {&medium.index, &medium.absorption_per_mm, &medium.emission})
+      require_finite(*curve);
   });
 }
 
@@ -93,10 +94,11 @@ bool run_profile(const std::uint8_t* data, std::size_t size) {
 
 bool run_face_response(const std::uint8_t* data, std::size_t size) {
   return read_csv_or_input_error(data, size, [](const std::filesystem::path& path) {
-    const auto database = with_own(
-        DefinitionKind::sensor,
-        "efficiency = { definition = \"internal\", value = 0.5 }\nwindow = { index = 1.5 }\nuniformity = { map = "
-        "{ file = \"" + path.string() + "\", unit = \"mm\" } }\n");
+    const auto database = with_own(DefinitionKind::sensor,
+                                   "efficiency = { definition = \"internal\", value = 0.5 }\nwindow = { "
+                                   "index = 1.5 }\nuniformity = { map = "
+                                   "{ file = \"" +
+                                       path.string() + "\", unit = \"mm\" } }\n");
     require(database.sensor("own").over_face.has_value(), "a sensor without its response over the face");
   });
 }
@@ -134,7 +136,8 @@ bool run_definition(const std::uint8_t* data, std::size_t size) {
     }
   };
   using Database = materials::MaterialDatabase;
-  return reads(DefinitionKind::medium, [](const Database& all) { require_finite(all.medium("own").index); }) ||
+  return reads(DefinitionKind::medium,
+               [](const Database& all) { require_finite(all.medium("own").index); }) ||
          reads(DefinitionKind::sensor, [](const Database& all) { all.sensor("own"); }) ||
          reads(DefinitionKind::reflector, [](const Database& all) { all.reflector("own"); }) ||
          reads(DefinitionKind::surface, [](const Database& all) { all.surface("own"); });
@@ -142,9 +145,9 @@ bool run_definition(const std::uint8_t* data, std::size_t size) {
 
 std::vector<std::string> definition_seeds() {
   std::vector<std::string> seeds;
-  for (const char* name : {"media/LSO", "media/BGO", "media/calcite", "sensors/R6231", "sensors/S13360_6050VE",
-                           "sensors/MicroFC_10035", "reflectors/ESR", "reflectors/PTFE",
-                           "surfaces/detect_ground", "surfaces/esr_by_angle"}) {
+  for (const char* name : {"media/LSO", "media/BGO", "media/calcite", "sensors/R6231",
+                           "sensors/S13360_6050VE", "sensors/MicroFC_10035", "reflectors/ESR",
+                           "reflectors/PTFE", "surfaces/detect_ground", "surfaces/esr_by_angle"}) {
     std::ifstream file(scene_folder() / "../materials" / (std::string(name) + ".toml"), std::ios::binary);
     if (file) seeds.emplace_back(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
   }
@@ -168,7 +171,8 @@ bool run_readout(const std::uint8_t* data, std::size_t size) {
 }
 
 bool run_analysis(const std::uint8_t* data, std::size_t size) {
-  return run_settings(data, size, [](const std::string& text) { scene_file::analysis_of_text(text, "fuzz"); });
+  return run_settings(data, size,
+                      [](const std::string& text) { scene_file::analysis_of_text(text, "fuzz"); });
 }
 
 constexpr std::size_t kPerCurveByte = 512, kCurveAlways = std::size_t{1} << 22;

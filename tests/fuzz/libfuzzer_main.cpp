@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "curve_entries.hpp"
 #include "corpus.hpp"
+#include "curve_entries.hpp"
 #include "detector_entries.hpp"
 #include "entries.hpp"
 #include "geometry_entries.hpp"
@@ -14,9 +14,8 @@
 namespace {
 
 const scintray::fuzz::Entry& entry() {
-  for (const auto& entries :
-       {scintray::fuzz::entries(), scintray::fuzz::geometry_entries(), scintray::fuzz::detector_entries(),
-        scintray::fuzz::curve_entries()})
+  for (const auto& entries : {scintray::fuzz::entries(), scintray::fuzz::geometry_entries(),
+                              scintray::fuzz::detector_entries(), scintray::fuzz::curve_entries()})
     for (const scintray::fuzz::Entry& candidate : entries)
       if (std::strcmp(candidate.name, SCINTRAY_FUZZ_ENTRY) == 0) return candidate;
   std::abort();

@@ -299,16 +299,17 @@ bool run_response(const std::uint8_t* data, std::size_t size) {
 /// Sums of tallies are stored sparsely: a few bytes are a tally of as many bins as may be.
 constexpr std::size_t kPerOwnByte = 4096, kOwnAlways = std::size_t{1} << 30;
 
-constexpr Entry kOwnEntries[] = {{"scene", run_scene, scene_seeds, kPerOwnByte, kOwnAlways},
-                                 {"ranges", run_ranges, range_seeds, kPerOwnByte, kOwnAlways},
-                                 {"map_shard", run_map_shard, map_shard_seeds, kPerOwnByte, kOwnAlways},
-                                 {"map_shard_sealed", run_resealed<run_map_shard>, map_shard_seeds, kPerOwnByte, kOwnAlways},
-                                 {"ranges_sealed", run_resealed<run_ranges>, range_seeds, kPerOwnByte, kOwnAlways},
-                                 {"results", run_results, results_seeds, kPerOwnByte, kOwnAlways},
-                                 {"response", run_response, response_seeds, kPerOwnByte, kOwnAlways},
-                                 {"table", run_table, table_seeds, kPerOwnByte, kOwnAlways},
-                                 {"columns_hdf5", run_columns, column_seeds, kPerOwnByte, kOwnAlways},
-                                 {"journal", run_journal, journal_seeds, kPerOwnByte, kOwnAlways}};
+constexpr Entry kOwnEntries[] = {
+    {"scene", run_scene, scene_seeds, kPerOwnByte, kOwnAlways},
+    {"ranges", run_ranges, range_seeds, kPerOwnByte, kOwnAlways},
+    {"map_shard", run_map_shard, map_shard_seeds, kPerOwnByte, kOwnAlways},
+    {"map_shard_sealed", run_resealed<run_map_shard>, map_shard_seeds, kPerOwnByte, kOwnAlways},
+    {"ranges_sealed", run_resealed<run_ranges>, range_seeds, kPerOwnByte, kOwnAlways},
+    {"results", run_results, results_seeds, kPerOwnByte, kOwnAlways},
+    {"response", run_response, response_seeds, kPerOwnByte, kOwnAlways},
+    {"table", run_table, table_seeds, kPerOwnByte, kOwnAlways},
+    {"columns_hdf5", run_columns, column_seeds, kPerOwnByte, kOwnAlways},
+    {"journal", run_journal, journal_seeds, kPerOwnByte, kOwnAlways}};
 
 }  // namespace
 

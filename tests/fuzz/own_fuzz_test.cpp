@@ -31,8 +31,8 @@ TEST_CASE("own files: damaged ones are read or end in an input error") {
     const std::vector<std::string> seeds = all_seeds(entry);
     Rng rng(20261124, StreamKind::other, ++stream);
     const std::string_view name = entry.name;
-    const bool text = name == "scene" || name.starts_with("ranges") || name.starts_with("map_shard") ||
-                      name == "journal";
+    const bool text =
+        name == "scene" || name.starts_with("ranges") || name.starts_with("map_shard") || name == "journal";
     int read = 0;
     const int trials = text ? kTextTrials : kFileTrials;
     for (int trial = 0; trial < trials; ++trial) {

@@ -15,6 +15,8 @@ using scene_file::UntilGoal;
 /// Photons, or events, below which the relative error of a count is not known well enough to end by it.
 constexpr double kLeastCounted = 100.0;
 constexpr std::uint64_t kLeastEvents = 32;
+/// Pairs of events below which no run ends by the error of a CTR.
+constexpr std::size_t kLeastPairs = 50;
 
 [[noreturn]] void refuse_bin(const scene_file::UntilSpec& until, const std::string& what,
                              const std::string& hint) {
@@ -132,8 +134,9 @@ std::optional<core::Estimate> GoalWatch::estimate_of_events() const {
     case UntilGoal::light_per_energy:
       return known(analysis.light_per_keV);
     default:
-      return analysis.pair_difference_ns ? known(analysis::quoted_fwhm(*analysis.pair_difference_ns))
-                                         : std::nullopt;
+      return analysis.pair_difference_ns && analysis.pair_difference_ns->count >= kLeastPairs
+                 ? known(analysis::quoted_fwhm(*analysis.pair_difference_ns))
+                 : std::nullopt;
   }
 }
 

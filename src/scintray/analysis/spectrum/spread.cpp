@@ -17,6 +17,7 @@ constexpr double kReach = 2.5;
 constexpr double kCoreBinsPerSigma = 4.0;
 constexpr double kLeastInCore = 50.0;
 constexpr int kMostCoreRounds = 8;
+constexpr std::size_t kLeastInGroup = 4;  // as of jackknife_errors
 
 double quantile_fwhm(std::span<const double> sorted) {
   return sorted_quantile(sorted, 1.0 - kLowerShare) - sorted_quantile(sorted, kLowerShare);
@@ -67,7 +68,8 @@ void leave_out_groups(const GroupedValues& values, Spread& spread) {
     if (!without.fit.converged) return std::nullopt;
     return std::vector{without.gaussian_fwhm.value};
   };
-  if (const auto errors = jackknife_errors(values, {}, width_of))
+  const std::size_t groups = std::min(Divisions().groups, values.sorted().size() / kLeastInGroup);
+  if (const auto errors = jackknife_errors(values, {1, groups}, width_of))
     spread.gaussian_fwhm.error = errors->front();
 }
 

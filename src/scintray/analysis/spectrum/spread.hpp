@@ -22,12 +22,12 @@ struct Spread {
 };
 
 /// Centre and width of values. The error of the Gaussian's width is that of the jackknife over 32 random
-/// groups of values (core::jackknife_error): it holds also where no Gaussian describes the
-/// values, and includes the contribution of the choice of the fitted range; for fewer than 128 values it is
-/// the fit's own. That of the quantiles' width is distribution-free: a quarter of the distance between the
-/// order statistics two standard deviations (sqrt(q (1 - q) N)) to either side, with the covariance of two
-/// order statistics (Kendall & Stuart, The Advanced Theory of Statistics, vol. 1, section 10.10: cited from
-/// memory, assumed). Values that are not finite are left out.
+/// groups of values, or groups of four where there are fewer than 128 (core::jackknife_error): it holds also
+/// where no Gaussian describes the values, and includes the contribution of the choice of the fitted range.
+/// That of the quantiles' width is distribution-free: a quarter of the distance between the order statistics
+/// two standard deviations (sqrt(q (1 - q) N)) to either side, with the covariance of two order statistics
+/// (Kendall & Stuart, The Advanced Theory of Statistics, vol. 1, section 10.10: cited from memory, assumed).
+/// Values that are not finite are left out.
 Spread spread_of(std::span<const double> values);
 
 }  // namespace scintray::analysis

@@ -12,8 +12,6 @@ namespace scintray::analysis {
 namespace {
 
 constexpr std::size_t kLeastPairs = 50, kLeastOfSlice = 100;
-/// Least p of a Gaussian whose width is quoted, as for photopeaks.
-constexpr double kLeastQuoted = 1e-4;
 
 OrderTiming timing_of(std::size_t n, const std::vector<double>& times) {
   return {n, times.size(), mean_of(times), spread_of(paired_differences(times)).quantile_fwhm};
@@ -56,10 +54,7 @@ std::vector<double> channel_differences(std::span<const double> a_ns, std::span<
   return differences;
 }
 
-core::Estimate quoted_fwhm(const Spread& differences) {
-  const bool gaussian = differences.fit.converged && differences.fit.goodness.p_value >= kLeastQuoted;
-  return gaussian ? differences.gaussian_fwhm : differences.quantile_fwhm;
-}
+core::Estimate quoted_fwhm(const Spread& differences) { return differences.quantile_fwhm; }
 
 void FirstPhotons::add(std::uint64_t event, double time_ns) {
   if (most_ == 0 || !std::isfinite(time_ns)) return;

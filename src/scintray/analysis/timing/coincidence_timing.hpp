@@ -21,8 +21,8 @@ std::vector<double> paired_differences(std::span<const double> times_ns);
 /// Differences a - b of every event that has both. @throws std::invalid_argument when the sizes differ
 std::vector<double> channel_differences(std::span<const double> a_ns, std::span<const double> b_ns);
 
-/// The CTR to quote: the fitted FWHM where a Gaussian describes the differences (p of 1e-4 or more), else
-/// that of the quantiles.
+/// The CTR to quote: that between the quantiles, which is one quantity for any number of events. (The fitted
+/// width is another one where the differences are not Gaussian, which few events do not show.)
 core::Estimate quoted_fwhm(const Spread& differences);
 
 /// Collector of the earliest detected photons of every event, for any number of photons.
