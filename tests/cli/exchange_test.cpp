@@ -56,3 +56,32 @@ TEST_CASE(
   CHECK(bare.exit_code == cli::kBadInput);
   CHECK(contains(bare.output, "no data exist"));
 }
+
+TEST_CASE("table: tabulated BSDF is read back, with its BTDF, and LBNL's layout holds no transmitted light") {
+  const auto folder = scratch_folder("exchange_bsdf");
+  write_table(folder / "rough.h5", rough_table());
+  REQUIRE(run_program({"table", "export", "rough.h5", "--format", "bsdf", "--rays", "1000", "-o", "a.bsdf"},
+                      folder)
+              .exit_code == cli::kSuccess);
+  std::vector<std::string> words{"table", "import",         "a_brdf.bsdf",    "--format", "bsdf",
+                                 "-o",    "back.h5",        "--inside-index", "1.82",     "--outside-index",
+                                 "1",     "--from-outside", "smooth"};
+  const Ended without = run_program(words, folder);
+  CHECK(without.exit_code == cli::kSuccess);
+  CHECK(contains(without.output, "nothing is transmitted"));
+  CHECK(read_table(folder / "back.h5").opaque());
+  std::filesystem::remove(folder / "back.h5");
+  words.insert(words.end(), {"--transmitted", "a_btdf.bsdf"});
+  CHECK(run_program(words, folder).exit_code == cli::kSuccess);
+  CHECK_FALSE(read_table(folder / "back.h5").opaque());
+  words.back() = "a_brdf.bsdf";
+  const Ended swapped = run_program(words, folder);
+  CHECK(swapped.exit_code == cli::kBadInput);
+  CHECK(contains(swapped.output, "a_brdf.bsdf:"));
+  words.insert(words.end(), {"--reflectance", "0.9"});
+  CHECK(contains(run_program(words, folder).output, "the files contain the shares"));
+  const Ended through =
+      run_program({"table", "export", "rough.h5", "--format", "lbnl", "-o", "GroundTeflon.z"}, folder);
+  CHECK(through.exit_code == cli::kBadInput);
+  CHECK(contains(through.output, "transmitted"));
+}

@@ -155,6 +155,35 @@ TEST_CASE("GDML: a dichroic border runs with the file that G4DICHROICDATA names"
   CHECK(result.photons == 20'000);
 }
 
+TEST_CASE("GDML: coated faces and paint that passes light have the options of Geant4's boundary process") {
+  const auto toml = [](const std::string& surface) {
+    GdmlText text =
+        gdml_solid(R"(<box name="it" x="4" y="2" z="2"/><opticalsurface name="f" model="unified" )" +
+                   surface + "</opticalsurface>");
+    text.define = R"(<matrix name="CI" coldim="2" values="2*eV 1.7 4*eV 1.7"/>
+<matrix name="CT" coldim="1" values="100*nm"/><matrix name="ON" coldim="1" values="1"/>
+<matrix name="S" coldim="2" values="2*eV 0.3 4*eV 0.3"/><matrix name="R" coldim="2" values="2*eV 0.8 4*eV 0.8"/>)";
+    text.structure += R"(<skinsurface name="s" surfaceproperty="f"><volumeref ref="body"/></skinsurface>)";
+    return exchange::gdml::draft_of_gdml(text.text(), "test.gdml", {}).toml;
+  };
+  const std::string film =
+      R"(finish="polished" type="coated" value="0"><property name="COATEDRINDEX" ref="CI"/>)"
+      R"(<property name="COATEDTHICKNESS" ref="CT"/>)";
+  const std::string efficiency = R"(<property name="EFFICIENCY" ref="S"/>)";
+  check_contains(toml(film), "frustrated_transmission = false }");
+  CHECK_FALSE(
+      contains(toml(film + R"(<property name="COATEDFRUSTRATEDTRANSMISSION" ref="ON"/>)"), "frustrated"));
+  check_contains(toml(film + efficiency), "transmits = false");
+  check_contains(toml(film + efficiency), "[sensors.\"f sensor\"]");
+  // One number decides: of the light that comes to the paint at most 0.2 pass it.
+  const std::string paint = R"(finish="groundbackpainted" type="dielectric_dielectric" value="0.1">)"
+                            R"(<property name="RINDEX" ref="CI"/><property name="REFLECTIVITY" ref="R"/>)";
+  const std::string passing = toml(paint + R"(<property name="TRANSMITTANCE" ref="S"/>)");
+  check_contains(passing, "transmitted_light = \"undeflected\"");
+  check_contains(passing.substr(passing.find("\ntransmittance = ")), "value = [0.2, 0.2]");
+  CHECK_FALSE(contains(toml(paint), "transmitted_light"));
+}
+
 TEST_CASE("GDML: a rough dichroic face reflects by Lambert's law, as Geant4 without UNIFIED's lobes") {
   const auto toml = [](const std::string& attributes) {
     GdmlText text = gdml_solid(R"(<box name="it" x="4" y="2" z="2"/><opticalsurface name="f" )" + attributes +

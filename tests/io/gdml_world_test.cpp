@@ -12,6 +12,7 @@
 #include "scintray/simulation/simulation_point.hpp"
 #include "support/agreement.hpp"
 #include "support/folders.hpp"
+#include "support/shared.hpp"
 #include "support/words.hpp"
 
 using namespace scintray;
