@@ -64,11 +64,13 @@ photon_history = true
 NUMBERS = {'17/400': '1/3', '"$SLURM_ARRAY_TASK_ID/400"': '2/3', '{}/400': '3/3', '"$SLURM_CPUS_PER_TASK"': '1',
            '::: $(seq 400)': '', 'build/release/bin/scintray': 'scintray', 'parallel scintray': 'scintray',
            'exec scintray': 'scintray',
+           '"$1/400"': '1/3', '"part.$1/$1.shard"': 'part.shard',
            # Fits of one field, tables of few rays, a run of few photons.
            '--seeds 5': '--seeds 1', 'table stack lso': 'table stack --rays 100 lso',
            'run wrapped.toml': 'run wrapped.toml --photons 20000',
            # Maps of half a minute each, and their time.
-           'time scintray': 'scintray', '--photons 12000': '--photons 20', '--channel-photons 60000': '--channel-photons 200'}
+           'time scintray': 'scintray', '--photons 12000': '--photons 20', '--channel-photons 60000': '--channel-photons 200',
+           'module_map.h5 --shard': 'module_map.h5 --photons 20 --shard'}
 # Lines that belong to other machines: launched by MPI, or long.
 ELSEWHERE = {
     'mpirun -n 64 scintray run scanner.toml -o scanner.h5': 'tests/cli/mpi_test.cpp runs 1, 2 and 4 ranks',
@@ -77,6 +79,9 @@ ELSEWHERE = {
         'a build without Open CASCADE refuses STEP files; tests/mesh/step_test.cpp reads some, tests/cli imports other bodies',
     'scintray run polished.toml -t 1 --photons $n -o $n.h5 --no-report': 'a measurement of ten million photons',
 }
+# Shards that a page merges, and what makes them.
+SHARDS = {'scanner.*.shard': 'run scanner.toml --quiet',
+          'module_map.*.shard': 'response build module.toml -o module_map.h5 --photons 20'}
 GROUND = 'table stack --rays 100 lso_ground_30um --inside LSO --outside air --wavelength "420 nm" -o ground.h5'
 CUBES = ''.join(f'o cube{i}\n' + ''.join(f'v {x + 3 * i} {y} {z}\n' for z in (0, 2) for x, y in ((0, 0), (2, 0), (2, 2), (0, 2))) +
                 ''.join('f ' + ' '.join(str(8 * i + n) for n in face) + '\n' for face in
@@ -112,7 +117,7 @@ photons = 1000
 # the names that other programs give.
 GIVEN = {
     'docs/analysis.md': {'files': {'other.toml': SCENE}},
-    'docs/exchange.md': {'run': [GROUND], 'files': {
+    'docs/exchange.md': {'run': [GROUND, GROUND.replace('30um', '30um_ptfe_air').replace('ground.h5', 'wrapped.h5')], 'files': {
         'surfaces/README': '', 'GroundTeflon.z': zlib.compress(b'0.5\n' * (91 * 45 * 37))}},
     'docs/importing.md': {'files': {'detector.obj': CUBES, 'GateMaterials.db': GATE_MATERIALS, 'detector.toml': CRYSTAL_IN_AIR},
                           'copied': {'main.mac': 'docs/examples/gate/lyso_array.mac',
@@ -123,6 +128,7 @@ GIVEN = {
     'docs/readout.md': {'files': {'other.toml': SCENE}},
     'docs/results.md': {'run': [f'run scene.toml --no-view --seed {seed} -o {name}.h5' for seed, name in
                                 enumerate(('quickstart', 'events', 'reference', 'changed', 'other'))]},
+    'docs/scaling.md': {'files': {'module.toml': SCENE}},
     'docs/reweighting.md': {'files': {'scene.toml': SCENE.replace('ESR', 'PTFE')}},
 }
 # What stands before a block that goes on within a file: other absorption coefficients and reflectances.
@@ -251,13 +257,15 @@ class Commands(unittest.TestCase):
             if words[0] == 'python3':
                 continue
             count += 1
-            if 'scanner.*.shard' in words:
-                for old in folder.glob('scanner.*.shard'):
+            for pattern, command in SHARDS.items():
+                if pattern not in words:
+                    continue
+                for old in folder.glob(pattern):
                     old.unlink()
                 for shard in range(1, 4):
-                    self.scintray(folder, 'run', 'scanner.toml', '--quiet', '--shard', f'{shard}/3')
-                at = words.index('scanner.*.shard')
-                words[at:at + 1] = sorted(path.name for path in folder.glob('scanner.*.shard'))
+                    self.scintray(folder, *shlex.split(command), '--shard', f'{shard}/3')
+                at = words.index(pattern)
+                words[at:at + 1] = sorted(path.name for path in folder.glob(pattern))
             self.assertEqual(words[0], 'scintray', line)
             for name in ('scanner.h5', 'scanner.html'):
                 (folder / name).unlink(missing_ok=True)

@@ -277,7 +277,7 @@ class ClearanceCheck {
       if (!(height < 0.0) || height < -reach) return false;
       for (std::size_t k = 0; k < 3; ++k)
         if (normal.dot((triangle[(k + 1) % 3] - triangle[k]).cross(point - triangle[k])) < 0.0) return false;
-      return true;
+      return contains(part, point, 0.0);  // and not beyond the end of the face that its facet has
     });
   }
 
