@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 #include "scintray/analysis/fit/detail/gsl_errors.hpp"
@@ -23,6 +24,34 @@ std::vector<core::Estimate> peak_positions(const std::vector<DepthSlice>& slices
     positions.push_back(peak.fit.position);
   }
   return positions;
+}
+
+/// Unweighted least squares, with the errors that those of the points propagate to. Light against depth is no
+/// straight line: the line of a weighted fit would change with the weights, which fluctuate, too.
+StraightLine even_line(const std::vector<double>& x, const std::vector<core::Estimate>& y) {
+  const auto n = static_cast<double>(x.size());
+  const double middle = std::accumulate(x.begin(), x.end(), 0.0) / n;
+  double square = 0.0;
+  for (const double at : x) square += (at - middle) * (at - middle);
+  StraightLine line;
+  double variance_offset = 0.0, variance_slope = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double of_slope = (x[i] - middle) / square, of_offset = 1.0 / n - middle * of_slope;
+    const double variance = y[i].error * y[i].error;
+    line.slope.value += of_slope * y[i].value;
+    line.offset.value += of_offset * y[i].value;
+    variance_slope += of_slope * of_slope * variance;
+    variance_offset += of_offset * of_offset * variance;
+    line.covariance += of_slope * of_offset * variance;
+  }
+  line.slope.error = std::sqrt(variance_slope);
+  line.offset.error = std::sqrt(variance_offset);
+  for (std::size_t i = 0; i < x.size(); ++i)
+    line.goodness.chi2 +=
+        std::pow((y[i].value - line.offset.value - line.slope.value * x[i]) / y[i].error, 2);
+  line.goodness.degrees = n - 2.0;
+  line.goodness.p_value = core::chi_square_p_value(line.goodness.chi2, line.goodness.degrees);
+  return line;
 }
 
 }  // namespace
@@ -83,7 +112,7 @@ DepthCurve depth_curve(std::vector<DepthPoint> points, double reference_mm) {
     values.push_back(value);
   }
   if (depths.front() == depths.back()) return curve;
-  curve.line = fit_line(depths, values);
+  curve.line = even_line(depths, values);
   const double middle = 0.5 * (depths.front() + depths.back());
   const core::Estimate centre = curve.line.at(middle);
   const double slope = curve.line.slope.value, relative = slope / centre.value;

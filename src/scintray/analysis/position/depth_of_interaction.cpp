@@ -15,6 +15,8 @@ namespace {
 constexpr std::size_t kLeastWithBothEnds = 100, kLeastOfDoiSlice = 10;
 /// A slope below this many standard errors is no calibration.
 constexpr double kLeastSlope = 5.0;
+/// Groups of events of the jackknife.
+constexpr std::size_t kGroups = 32;
 
 core::InputError no_doi(const std::string& what, const std::string& hint) {
   return core::InputError(core::Problem{{}, what, hint});
@@ -136,6 +138,70 @@ std::vector<DoiSlice> evaluate_slices(std::span<const double> depths_mm, std::sp
   return evaluated;
 }
 
+/// Depths and ratios of events: those that calibrate, and those that are evaluated.
+struct EndEvents {
+  std::array<std::vector<double>, 2> depths_mm, ratios;
+
+  /// Without every 32nd, from `group` on.
+  EndEvents without(std::size_t group) const {
+    EndEvents rest;
+    for (std::size_t half = 0; half < 2; ++half)
+      for (std::size_t i = 0; i < ratios[half].size(); ++i) {
+        if (i % kGroups == group) continue;
+        rest.depths_mm[half].push_back(depths_mm[half][i]);
+        rest.ratios[half].push_back(ratios[half][i]);
+      }
+    return rest;
+  }
+};
+
+/// @param spread  makes the residuals' spread
+DoiAnalysis evaluate(const EndEvents& events, DoiCalibrationKind kind, std::size_t slices,
+                     Spread (*spread)(std::span<const double>)) {
+  DoiAnalysis result;
+  const Calibrated calibrated = line_of_means(events.depths_mm[0], events.ratios[0], 2 * slices);
+  result.line = calibrated.line;
+  result.calibration = calibration_of(calibrated, kind);
+  std::vector<double> residuals_mm;
+  for (std::size_t i = 0; i < events.ratios[1].size(); ++i)
+    residuals_mm.push_back(result.calibration.depth(events.ratios[1][i]) - events.depths_mm[1][i]);
+  result.residual = spread(residuals_mm);
+  result.slices = evaluate_slices(events.depths_mm[1], residuals_mm, slices);
+  return result;
+}
+
+/// Every number with an error, in a fixed order.
+std::vector<core::Estimate*> estimates_of(DoiAnalysis& analysis) {
+  std::vector<core::Estimate*> all{&analysis.residual.mean, &analysis.residual.quantile_fwhm};
+  if (analysis.residual.fit.converged) all.push_back(&analysis.residual.gaussian_fwhm);
+  for (DoiSlice& slice : analysis.slices) {
+    all.push_back(&slice.bias_mm);
+    all.push_back(&slice.fwhm_mm);
+  }
+  return all;
+}
+
+/// Errors that include those of the calibration: by the jackknife over groups of the events of both halves,
+/// each calibrated and evaluated anew. Where a group leaves too few events for this, the errors are those of
+/// the evaluated events alone.
+void add_errors_of_calibration(const EndEvents& events, DoiCalibrationKind kind, std::size_t slices,
+                               DoiAnalysis& analysis) {
+  const std::vector<core::Estimate*> estimates = estimates_of(analysis);
+  std::vector<std::vector<double>> left_out(estimates.size());
+  for (std::size_t group = 0; group < kGroups; ++group) {
+    DoiAnalysis without;
+    try {
+      without = evaluate(events.without(group), kind, slices, quick_spread_of);
+    } catch (const core::InputError&) {
+      return;
+    }
+    const std::vector<core::Estimate*> values = estimates_of(without);
+    if (values.size() != estimates.size()) return;
+    for (std::size_t k = 0; k < values.size(); ++k) left_out[k].push_back(values[k]->value);
+  }
+  for (std::size_t k = 0; k < estimates.size(); ++k) estimates[k]->error = core::jackknife_error(left_out[k]);
+}
+
 }  // namespace
 
 double end_ratio(EndRatio kind, double a, double b) {
@@ -158,29 +224,22 @@ DoiCalibration calibrate_doi(std::span<const double> depths_mm, std::span<const 
 
 DoiAnalysis analyze_doi(std::span<const double> depths_mm, std::span<const double> ratios, EndRatio ratio,
                         DoiCalibrationKind kind, std::size_t slices) {
-  std::array<std::vector<double>, 2> depths, values;
+  EndEvents events;
   std::size_t usable = 0;
   for (std::size_t i = 0; i < std::min(depths_mm.size(), ratios.size()); ++i) {
     if (!std::isfinite(depths_mm[i]) || !std::isfinite(ratios[i])) continue;
-    depths[usable % 2].push_back(depths_mm[i]);
-    values[usable % 2].push_back(ratios[i]);
+    events.depths_mm[usable % 2].push_back(depths_mm[i]);
+    events.ratios[usable % 2].push_back(ratios[i]);
     ++usable;
   }
   if (usable < kLeastWithBothEnds)
     throw no_doi(std::to_string(usable) + " events with light at both ends; " +
                      std::to_string(kLeastWithBothEnds) + " are needed",
                  "simulate more events");
-  DoiAnalysis analysis;
+  DoiAnalysis analysis = evaluate(events, kind, slices, spread_of);
   analysis.ratio = ratio;
   analysis.kind = kind;
-  const Calibrated calibrated = line_of_means(depths[0], values[0], 2 * slices);
-  analysis.line = calibrated.line;
-  analysis.calibration = calibration_of(calibrated, kind);
-  std::vector<double> residuals;
-  for (std::size_t i = 0; i < values[1].size(); ++i)
-    residuals.push_back(analysis.calibration.depth(values[1][i]) - depths[1][i]);
-  analysis.residual = spread_of(residuals);
-  analysis.slices = evaluate_slices(depths[1], residuals, slices);
+  add_errors_of_calibration(events, kind, slices, analysis);
   return analysis;
 }
 

@@ -73,10 +73,7 @@ void leave_out_groups(const GroupedValues& values, Spread& spread) {
     spread.gaussian_fwhm.error = errors->front();
 }
 
-}  // namespace
-
-Spread spread_of(std::span<const double> values) {
-  const GroupedValues grouped(values);
+Spread spread_of_groups(const GroupedValues& grouped) {
   const std::vector<double>& sorted = grouped.sorted();
   Spread spread;
   spread.count = sorted.size();
@@ -90,8 +87,18 @@ Spread spread_of(std::span<const double> values) {
   spread.quantile_fwhm = {quantile_fwhm(sorted), error_by_order_statistics(sorted)};
   if (static_cast<double>(sorted.size()) >= kLeastInCore && spread.quantile_fwhm.value > 0.0)
     fit_core(sorted, spread);
+  return spread;
+}
+
+}  // namespace
+
+Spread spread_of(std::span<const double> values) {
+  const GroupedValues grouped(values);
+  Spread spread = spread_of_groups(grouped);
   if (spread.fit.converged) leave_out_groups(grouped, spread);
   return spread;
 }
+
+Spread quick_spread_of(std::span<const double> values) { return spread_of_groups(GroupedValues(values)); }
 
 }  // namespace scintray::analysis

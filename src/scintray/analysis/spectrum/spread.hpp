@@ -30,4 +30,7 @@ struct Spread {
 /// Values that are not finite are left out.
 Spread spread_of(std::span<const double> values);
 
+/// The same, with the error of the fit for the Gaussian's width: faster, for values alone.
+Spread quick_spread_of(std::span<const double> values);
+
 }  // namespace scintray::analysis
