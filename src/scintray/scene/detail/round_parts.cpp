@@ -274,9 +274,12 @@ class ClearanceCheck {
     const double reach = 2.0 * bodies_[part].deviation_mm + tolerance_;
     return std::any_of(points.begin(), points.end(), [&](const core::Vec3& point) {
       const double height = normal.dot(point - triangle[0]) / normal.norm();
-      if (!(height < 0.0) || height < -reach) return false;
-      for (std::size_t k = 0; k < 3; ++k)
-        if (normal.dot((triangle[(k + 1) % 3] - triangle[k]).cross(point - triangle[k])) < 0.0) return false;
+      if (!(height < -tolerance_) || height < -reach) return false;
+      for (std::size_t k = 0; k < 3; ++k) {  // not at its sides, where other faces begin
+        const core::Vec3 side = triangle[(k + 1) % 3] - triangle[k];
+        const double within = normal.dot(side.cross(point - triangle[k])) / (normal.norm() * side.norm());
+        if (!(within > 2.0 * tolerance_)) return false;
+      }
       return contains(part, point, 0.0);  // and not beyond the end of the face that its facet has
     });
   }
