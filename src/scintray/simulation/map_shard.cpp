@@ -1,10 +1,8 @@
 #include "scintray/simulation/detail/map_shard.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -58,7 +56,13 @@ namespace {
 /// First bytes of a shard, and the version of its layout after them.
 constexpr std::string_view kShardMagic = "ScintRay response shard\n";
 constexpr std::uint32_t kShardVersion = 1;
-constexpr std::size_t kShardHead = kShardMagic.size() + sizeof kShardVersion;
+constexpr detail::FileHead kShardHead{
+    kShardMagic,
+    kShardVersion,
+    "this shard of a response map",
+    "name the file of a shard",
+    "this is not a shard of a response map",
+    "name files that `scintray response build --shard` wrote, and no others with them"};
 
 /// A shard whose records have been compared with their checksums.
 struct OpenShard {
@@ -69,7 +73,7 @@ struct OpenShard {
 
   /// A reader that stands at the first record.
   RecordReader records() const {
-    return {path, std::make_unique<std::ifstream>(path, std::ios::binary), kShardHead, size};
+    return {path, std::make_unique<std::ifstream>(path, std::ios::binary), kShardHead.size(), size};
   }
 };
 
@@ -109,33 +113,8 @@ std::uint64_t pieces_of(MapOutline& outline) {
                                 : CellAssembly(outline.map).pieces();
 }
 
-/// Size of a shard. @throws InputError for what is none, SystemError for what cannot be read
-std::uint64_t checked_size(const std::filesystem::path& path) {
-  const auto wrong = [&](const std::string& what, const std::string& hint) {
-    return core::InputError({{path.string()}, what, hint});
-  };
-  std::error_code error;
-  if (!std::filesystem::exists(path, error))
-    throw wrong("there is no such file", "check the name and the folder");
-  if (!std::filesystem::is_regular_file(path, error))
-    throw wrong("this is not a file", "name the file of a shard");
-  if (::access(path.c_str(), R_OK) != 0)
-    throw core::SystemError(path.string() + ": cannot read: " + std::strerror(errno));
-  if (!is_map_shard(path))
-    throw wrong("this is not a shard of a response map",
-                "name files that `scintray response build --shard` wrote, and no others with them");
-  std::uint32_t layout = 0;
-  const std::string head = core::read_beginning(path, kShardHead).value_or("");
-  if (head.size() == kShardHead) std::memcpy(&layout, head.data() + kShardMagic.size(), sizeof layout);
-  if (layout != kShardVersion)
-    throw wrong("this shard of a response map has layout " + std::to_string(layout) +
-                    ", and this program reads " + std::to_string(kShardVersion),
-                "use the version of ScintRay that wrote it");
-  return std::filesystem::file_size(path, error);
-}
-
 OpenShard opened(const std::filesystem::path& path) {
-  OpenShard shard{path, checked_size(path), {}, {}};
+  OpenShard shard{path, detail::checked_size(path, kShardHead), {}, {}};
   RecordReader records = shard.records();
   if (records.next() != Record::outline) throw records.damaged();
   records.decode(shard.outline);
@@ -246,26 +225,18 @@ std::vector<tally::BlockRange> gaps_of(const std::vector<OpenShard>& shards, std
 /// "shards 3, 7 of 9", where all are of one division; else how much is missing.
 std::string missing_of(const std::vector<OpenShard>& shards, const std::vector<tally::BlockRange>& gaps,
                        std::uint64_t pieces) {
-  constexpr std::size_t kMostNamed = 20;
-  constexpr std::uint64_t kMostShards = 1'000'000;  // examined one by one
-  const std::uint64_t of = shards.front().outline.shard.of;
+  std::vector<Shard> there;
+  for (const OpenShard& shard : shards) there.push_back(shard.outline.shard);
+  const std::string names = missing_shards(there, [&](const Shard& shard) {
+    const tally::BlockRange own = part_of(shard, pieces);
+    return std::any_of(gaps.begin(), gaps.end(), [&](const tally::BlockRange& gap) {
+      return own.first < gap.last && gap.first < own.last;
+    });
+  });
+  if (!names.empty()) return names + (names.starts_with("shards") ? " are" : " is");
   std::uint64_t count = 0;
   for (const tally::BlockRange& gap : gaps) count += gap.count();
-  const bool alike = std::all_of(shards.begin(), shards.end(),
-                                 [&](const OpenShard& shard) { return shard.outline.shard.of == of; });
-  if (of == 1 || of > kMostShards || !alike) return fmt::format("{} of {} pieces are", count, pieces);
-  std::vector<std::string> names;
-  for (std::uint64_t number = 1; number <= of && names.size() <= kMostNamed; ++number) {
-    const tally::BlockRange own = part_of({number, of}, pieces);
-    const auto lies_in = [&](const tally::BlockRange& gap) {
-      return own.first < gap.last && gap.first < own.last;
-    };
-    if (std::any_of(gaps.begin(), gaps.end(), lies_in)) names.push_back(std::to_string(number));
-  }
-  const bool more = names.size() > kMostNamed;
-  names.resize(std::min(names.size(), kMostNamed));
-  return fmt::format("shard{} {}{} of {} {}", names.size() == 1 ? "" : "s", core::list_of(names),
-                     more ? " and more" : "", of, names.size() == 1 ? "is" : "are");
+  return fmt::format("{} of {} pieces are", count, pieces);
 }
 
 /// Passes the pieces of a shard to the assembly of its map.

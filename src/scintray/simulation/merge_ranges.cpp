@@ -85,32 +85,21 @@ std::vector<Gap> gaps_between(const std::vector<Piece>& pieces, const RunOutline
 /// "shards 3, 7 of 9", where all files are shards of one division and whole shards are missing; else the
 /// blocks.
 std::string missing_text(const std::vector<Gap>& gaps, const std::vector<RangeReader>& readers) {
-  constexpr std::size_t kMostNamed = 20;
-  constexpr std::uint64_t kMostShards = 1'000'000;  // examined one by one
   const RunOutline& run = readers.front().outline();
-  const std::uint64_t of = readers.front().shard().of;
-  const bool shards = of > 1 && of <= kMostShards &&
-                      std::all_of(readers.begin(), readers.end(),
-                                  [&](const RangeReader& reader) { return reader.shard().of == of; });
-  const auto in_gap = [&](std::uint64_t number) {
-    const tally::BlockRange of_run = blocks_of({number, of}, run);
+  std::vector<Shard> there;
+  for (const RangeReader& reader : readers) there.push_back(reader.shard());
+  const std::string shards = missing_shards(there, [&](const Shard& shard) {
+    const tally::BlockRange of_run = blocks_of(shard, run);
     return std::any_of(gaps.begin(), gaps.end(), [&](const Gap& gap) {
       const tally::BlockRange blocks = blocks_of_point(of_run, run, gap.point);
       return blocks.first < gap.blocks.last && gap.blocks.first < blocks.last;
     });
-  };
+  });
+  if (!shards.empty()) return shards;
   std::vector<std::string> names;
-  if (shards)
-    for (std::uint64_t number = 1; number <= of && names.size() <= kMostNamed; ++number) {
-      if (in_gap(number)) names.push_back(std::to_string(number));
-    }
-  else
-    for (const Gap& gap : gaps)
-      names.push_back(fmt::format("{} to {} of point {}", gap.blocks.first, gap.blocks.last - 1, gap.point));
-  const bool more = names.size() > kMostNamed;
-  names.resize(std::min(names.size(), kMostNamed));
-  const std::string list = core::list_of(names) + (more ? " and more" : "");
-  return shards ? fmt::format("shard{} {} of {}", names.size() == 1 ? "" : "s", list, of) : "blocks " + list;
+  for (const Gap& gap : gaps)
+    names.push_back(fmt::format("{} to {} of point {}", gap.blocks.first, gap.blocks.last - 1, gap.point));
+  return "blocks " + list_of_first(std::move(names));
 }
 
 /// A point of which there is nothing.

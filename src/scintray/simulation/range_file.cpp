@@ -55,6 +55,28 @@ tally::BlockRange part_of(const Shard& shard, std::uint64_t blocks) {
   return {share_of(blocks, shard.number - 1, shard.of), share_of(blocks, shard.number, shard.of)};
 }
 
+std::string list_of_first(std::vector<std::string> names) {
+  constexpr std::size_t kMostNamed = 20;
+  const bool more = names.size() > kMostNamed;
+  names.resize(std::min(names.size(), kMostNamed));
+  return core::list_of(names) + (more ? " and more" : "");
+}
+
+std::string missing_shards(const std::vector<Shard>& there,
+                           const std::function<bool(const Shard&)>& is_missing) {
+  constexpr std::size_t kMostExamined = 21;         // one more than are named
+  constexpr std::uint64_t kMostShards = 1'000'000;  // examined one by one
+  const std::uint64_t of = there.empty() ? 0 : there.front().of;
+  const bool alike =
+      std::all_of(there.begin(), there.end(), [&](const Shard& shard) { return shard.of == of; });
+  if (of <= 1 || of > kMostShards || !alike) return {};
+  std::vector<std::string> names;
+  for (std::uint64_t number = 1; number <= of && names.size() < kMostExamined; ++number)
+    if (is_missing({number, of})) names.push_back(std::to_string(number));
+  const bool one = names.size() == 1;
+  return fmt::format("shard{} {} of {}", one ? "" : "s", list_of_first(std::move(names)), of);
+}
+
 tally::BlockRange blocks_of(const Shard& shard, const RunOutline& run) {
   return part_of(shard, blocks_of_run(run));
 }

@@ -2,6 +2,7 @@
 /// Files of block ranges: parts of a run, as shards and checkpoints (docs/scaling.md).
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,6 +21,14 @@ struct Shard {
 
 /// Share of a shard in a number of blocks, which are divided equally.
 tally::BlockRange part_of(const Shard& shard, std::uint64_t blocks);
+
+/// "a, b, c", of 20 at most, and that there are more.
+std::string list_of_first(std::vector<std::string> names);
+
+/// "shard 3 of 9", "shards 3, 7 of 9": those for which `is_missing` holds, 20 at most by number. Empty where
+/// the shards that are there are of several divisions, of none, or of more than a million.
+std::string missing_shards(const std::vector<Shard>& there,
+                           const std::function<bool(const Shard&)>& is_missing);
 /// Blocks of a shard, counted over all points of a run; blocks of points follow each other.
 tally::BlockRange blocks_of(const Shard& shard, const RunOutline& run);
 /// Of these, the blocks of one point, counted within it. May be empty.

@@ -10,6 +10,32 @@
 
 namespace scintray::simulation {
 
+namespace detail {
+
+std::uint64_t checked_size(const std::filesystem::path& path, const FileHead& head) {
+  const auto wrong = [&](std::string_view what, std::string_view hint) {
+    return core::InputError({{path.string()}, std::string(what), std::string(hint)});
+  };
+  std::error_code error;
+  if (!std::filesystem::exists(path, error))
+    throw wrong("there is no such file", "check the name and the folder");
+  if (!std::filesystem::is_regular_file(path, error)) throw wrong("this is not a file", head.no_file_hint);
+  if (::access(path.c_str(), R_OK) != 0)
+    throw core::SystemError(path.string() + ": cannot read: " + std::strerror(errno));
+  const std::uint64_t size = std::filesystem::file_size(path, error);
+  const std::string begin = core::read_beginning(path, head.size()).value_or("");
+  if (begin.size() < head.size() || !begin.starts_with(head.magic)) throw wrong(head.other, head.other_hint);
+  std::uint32_t layout = 0;
+  Decoder(std::string_view(begin).substr(head.magic.size())).plain(layout);
+  if (layout != head.version)
+    throw wrong(std::string(head.name) + " has layout " + std::to_string(layout) +
+                    ", and this program reads " + std::to_string(head.version),
+                "use the version of ScintRay that wrote it");
+  return size;
+}
+
+}  // namespace detail
+
 using detail::Decoder;
 using detail::Record;
 using detail::RecordReader;
@@ -21,30 +47,12 @@ RecordReader opened(const std::filesystem::path& path, std::uint64_t from, std::
   return {path, std::make_unique<std::ifstream>(path, std::ios::binary), from, to};
 }
 
-/// Size of a file of block ranges. @throws InputError for what is none
-std::uint64_t checked_size(const std::filesystem::path& path) {
-  const auto wrong = [&](const std::string& what, const std::string& hint) {
-    return core::InputError({{path.string()}, what, hint});
-  };
-  std::error_code error;
-  if (!std::filesystem::exists(path, error))
-    throw wrong("there is no such file", "check the name and the folder");
-  if (!std::filesystem::is_regular_file(path, error))
-    throw wrong("this is not a file", "name the file of a shard, or a folder of checkpoints");
-  if (::access(path.c_str(), R_OK) != 0)
-    throw core::SystemError(path.string() + ": cannot read: " + std::strerror(errno));
-  const std::uint64_t size = std::filesystem::file_size(path, error);
-  std::uint32_t layout = 0;
-  const std::string head = core::read_beginning(path, detail::kMagic.size() + sizeof layout).value_or("");
-  if (head.size() < detail::kMagic.size() + sizeof layout || !head.starts_with(detail::kMagic))
-    throw wrong("this is not a shard or checkpoint of a run", "name files that `scintray run --shard` wrote");
-  Decoder(std::string_view(head).substr(detail::kMagic.size())).plain(layout);
-  if (layout != detail::kRangesVersion)
-    throw wrong("this file of block ranges has layout " + std::to_string(layout) +
-                    ", and this program reads " + std::to_string(detail::kRangesVersion),
-                "use the version of ScintRay that wrote it");
-  return size;
-}
+constexpr detail::FileHead kHead{detail::kMagic,
+                                 detail::kRangesVersion,
+                                 "this file of block ranges",
+                                 "name the file of a shard, or a folder of checkpoints",
+                                 "this is not a shard or checkpoint of a run",
+                                 "name files that `scintray run --shard` wrote"};
 
 bool is_consistent(const RunOutline& run, const Shard& shard) {
   return !run.points.empty() && shard.number >= 1 && shard.number <= shard.of;
@@ -53,8 +61,8 @@ bool is_consistent(const RunOutline& run, const Shard& shard) {
 }  // namespace
 
 RangeReader::RangeReader(std::filesystem::path path) : path_(std::move(path)) {
-  const std::uint64_t size = checked_size(path_);
-  RecordReader records = opened(path_, detail::kMagic.size() + sizeof(detail::kRangesVersion), size);
+  const std::uint64_t size = detail::checked_size(path_, kHead);
+  RecordReader records = opened(path_, kHead.size(), size);
   if (records.next() != Record::outline) throw records.damaged();
   records.decode(shard_, outline_);
   if (!is_consistent(outline_, shard_)) throw records.damaged();

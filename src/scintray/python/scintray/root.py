@@ -77,6 +77,14 @@ def _require_branches(wanted: Sequence[str], branches: List[str], where: str) ->
             raise InputError(f"{where} has no branch {branch!r}", "it has " + ", ".join(branches))
 
 
+def _named(columns: Mapping[str, str], required: Sequence[str], hint: str) -> Dict[str, str]:
+    """The branches that a user names."""
+    missing = [name for name in required if name not in columns]
+    if missing:
+        raise InputError("columns names no branch for " + ", ".join(missing), hint)
+    return dict(columns)
+
+
 def _events_of_runs(run: Any, event: Any) -> Any:
     """Numbers of events that differ where the run or the event does."""
     pairs = np.column_stack([np.asarray(run), np.asarray(event)])
@@ -114,11 +122,7 @@ def read_root_hits(path: Union[str, "os.PathLike[str]"], tree: str = "Hits", *,
             run = run or (layout["run"] if layout["run"] in branches else None)
             time_unit = time_unit or layout["time_unit"]
         else:
-            names = dict(columns)
-            missing = [name for name in _REQUIRED if name not in names]
-            if missing:
-                raise InputError("columns names no branch for " + ", ".join(missing),
-                                 "event, x, y, z and energy are needed")
+            names = _named(columns, _REQUIRED, "event, x, y, z and energy are needed")
         _require_branches([*names.values(), *([run] if run else [])], branches, where)
         read = hits.arrays([*names.values(), *([run] if run else [])], library="np")
     data = {name: np.asarray(read[branch]) for name, branch in names.items()}
@@ -168,11 +172,7 @@ def read_root_photons(path: Union[str, "os.PathLike[str]"], tree: str = "PhaseSp
             run = run or (_RUN if _RUN in branches and "event" in names else None)
             particle = particle or (_PARTICLE if _PARTICLE in branches else None)
         else:
-            names = dict(columns)
-            missing = [name for name in _PHOTON_REQUIRED if name not in names]
-            if missing:
-                raise InputError("columns names no branch for " + ", ".join(missing),
-                                 "x, y, z, dx, dy, dz and energy or wavelength are needed")
+            names = _named(columns, _PHOTON_REQUIRED, "x, y, z, dx, dy, dz and energy or wavelength are needed")
         extra = [branch for branch in (run, particle) if branch]
         _require_branches([*names.values(), *extra], branches, where)
         read = rows.arrays([*names.values(), *extra], library="np")

@@ -49,6 +49,22 @@ class RangeWriter : public ResultSink {
   std::string paths_;                     ///< record that waits for the first range of its point
 };
 
+/// Beginning of a kind of file of records, and words for messages about others.
+struct FileHead {
+  std::string_view magic;  ///< first bytes; the version of the layout follows
+  std::uint32_t version = 0;
+  std::string_view name;          ///< "this shard of a response map"
+  std::string_view no_file_hint;  ///< for a folder
+  std::string_view other;         ///< "this is not ..."
+  std::string_view other_hint;
+
+  std::size_t size() const { return magic.size() + sizeof version; }
+};
+
+/// Size of a file, bytes, with this head. @throws InputError for any other, SystemError for what cannot be
+/// read
+std::uint64_t checked_size(const std::filesystem::path& path, const FileHead& head);
+
 /// Reader of records, one after the other.
 class RecordReader {
  public:
