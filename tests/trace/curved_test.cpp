@@ -340,7 +340,7 @@ TEST_CASE("Nothing is lost among bodies that touch in a point, share a radius, a
   }
 }
 
-TEST_CASE("Parts overlap where exact bodies do, and where facets do that one wall would have in common") {
+TEST_CASE("Parts overlap where exact bodies do") {
   const auto bore = [](const std::string& radius, const std::string& inner) {
     return part("tile", "tube = { outer_radius = \"3 mm\", inner_radius = \"" + radius +
                             "\", height = \"5 mm\", segments = 12 }") +
@@ -357,14 +357,13 @@ TEST_CASE("Parts overlap where exact bodies do, and where facets do that one wal
         "lso_clear", "surface = \"flat\"\nrotate = { axis = [0, 0, 1], angle = \"" + turn + "\" }\n");
   };
   for (const std::string& apart : {bore("1 mm", ball("1 mm")), bore("1 mm", rod(12, "0 deg")),
+                                   bore("1 mm", rod(10, "0 deg")), bore("1 mm", rod(12, "15 deg")),
                                    bore("1.001 mm", rod(10, "0 deg")), bore("1.001 mm", rod(12, "15 deg"))}) {
     CAPTURE(apart);
     const BuiltScene built = build(spec_of(apart, "tile"));
     for (const PartInfo& body : built.scene.parts) CHECK(body.curved);
   }
-  for (const std::string& overlapping :
-       {bore("1 mm", ball("1.02 mm")), bore("1 mm", rod(10, "0 deg")), bore("1 mm", rod(12, "15 deg")),
-        bore("0.99 mm", rod(12, "15 deg"))}) {
+  for (const std::string& overlapping : {bore("1 mm", ball("1.02 mm")), bore("0.99 mm", rod(12, "15 deg"))}) {
     CAPTURE(overlapping);
     std::string message;
     try {

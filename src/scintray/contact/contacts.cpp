@@ -357,14 +357,14 @@ void refuse_overlaps(const std::vector<PlacedPart>& parts, const std::vector<Ove
                     "{:.6g}) mm; parts may touch or lie one wholly inside the other{}",
                     a.name, b.name, common.exact ? "" : "about ", common.volume_mm3, how, common.inside.x(),
                     common.inside.y(), common.inside.z(), also_at(b.name, b.where, a.where)),
-        fmt::format(
-            "move one of them, or give the one that is to keep the space a higher priority; faces "
-            "meant to touch may miss each other by the contact tolerance, {:.3g} mm{}",
-            tolerance_mm,
-            a.supports.empty() && b.supports.empty()
-                ? ""
-                : "; round parts with one wall in common are compared by their facets: give both the same "
-                  "number of segments and the same turn about their axis"),
+        fmt::format("move one of them, or give the one that is to keep the space a higher priority; faces "
+                    "meant to touch may miss each other by the contact tolerance, {:.3g} mm{}",
+                    tolerance_mm,
+                    a.supports.empty() && b.supports.empty()
+                        ? ""
+                        : "; where round parts have one wall in common but their facets there cannot be made "
+                          "the same, "
+                          "give both the same number of segments and the same turn about their axis"),
         {{common.inside.x(), common.inside.y(), common.inside.z()}});
   }
   problems.throw_if_any();

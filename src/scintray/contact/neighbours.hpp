@@ -31,11 +31,20 @@ struct ConformingContact {
 /// ends within the other's: then both are stitched together there (detail/stitch.hpp), the first one keeping
 /// its shape.
 ///
-/// The changes are in the notes of the part that changed. Adds to `problems`: contacts without facing
-/// triangles, and parts for which CGAL fails or which the change leaves unsound. Flat faces within `flat_mm`
-/// of each other do not need this and are left to resolve_contacts.
+/// Faces of both that approximate one surface remain faces of that surface; a part that adopts others has
+/// none whose surface is known. The changes are in the notes of the part that changed. Adds to `problems`:
+/// contacts without facing triangles, and parts for which CGAL fails or which the change leaves unsound. Flat
+/// faces within `flat_mm` of each other do not need this and are left to resolve_contacts.
 void conform_contacts(std::vector<PlacedMesh>& parts, const std::vector<ConformingContact>& contacts,
                       double flat_mm, core::Problems& problems);
+
+/// Lets parts have the same facets on round walls that both have, of one surface within `flat_mm` and with a
+/// part on either side: a rod in a bore of its radius, a ball in its seat. The part around the other adopts
+/// the other's facets where these reach all of its own, else the other adopts its facets, or both are
+/// stitched together. Contacts in `stated` have a tolerance of their own, and are left out; where a part
+/// cannot be changed so, its facets remain, and overlap the other's.
+void conform_common_walls(std::vector<PlacedMesh>& parts, const std::vector<ConformingContact>& stated,
+                          double flat_mm);
 
 /// Subtracts from every part the overlapping parts of higher priority. Faces made by a cut are named
 /// "cut:NAME" after the part that cut, and have the finish of the part that was cut. Parts that lie one

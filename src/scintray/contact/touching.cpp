@@ -41,7 +41,7 @@ std::vector<char> touching_triangles(const PlacedMesh& part, const PlacedMesh& o
       mask[t] = near && overlap(bodies[0], t, bodies[1], u, plane).width() > tolerance_mm;
     }
   if (!(curved_mm > tolerance_mm)) return mask;
-  const std::vector<Facing> curved = facing(bodies[0], bodies[1], curved_mm, tolerance_mm);
+  const std::vector<Facing> curved = facing(bodies[0], bodies[1], {curved_mm, tolerance_mm});
   for (std::size_t t = 0; t < mask.size(); ++t) mask[t] |= curved[t] != Facing::none;
   return mask;
 }

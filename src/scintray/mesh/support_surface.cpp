@@ -171,7 +171,8 @@ bool SupportSurface::agrees_with(const SupportSurface& other, const std::array<c
   if (is_sphere() != other.is_sphere() || is_torus() != other.is_torus()) return false;
   const double radius = std::sqrt(radius2);
   return std::all_of(points.begin(), points.end(), [&](const core::Vec3& corner) {
-    const core::Vec3 point = corner + correction(corner);
+    core::Vec3 point = corner;  // of a facet's side where a contact cut it, off the surface
+    for (int step = 0; step < 3; ++step) point += correction(point);
     // Over an angle in which two surfaces of different axis or radius are apart by more than the tolerance.
     return std::abs(other.distance(point)) <= tolerance_mm &&
            (normal(point) - other.normal(point)).norm() * std::max(radius, 1e-300) <= 2.0 * tolerance_mm;
@@ -295,7 +296,12 @@ double segment_area(const SupportSurface& surface, const core::Vec3& normal, con
   const core::Vec3 to_a = a - centre, to_b = b - centre;
   const core::Vec3 ra = to_a - normal.dot(to_a) * normal, rb = to_b - normal.dot(to_b) * normal;
   const double cross = ra.cross(rb).norm(), dot = ra.dot(rb);
-  const double area = 0.5 * (std::atan2(cross, dot) * ra.norm() * rb.norm() - cross);
+  // Of the circle, on which corners that a contact made in the middle of a facet's side are not.
+  const double z = surface.is_sphere() || in_tube ? normal.dot(to_a) : surface.axis.dot(to_a);
+  const double circle2 = surface.is_sphere() ? surface.radius2 - z * z
+                         : in_tube           ? surface.radius2
+                                   : surface.radius2 + (2.0 * surface.slope - surface.axial * z) * z;
+  const double area = 0.5 * (std::atan2(cross, dot) * circle2 - cross);
   return normal.cross(b - a).dot(centre - a) > 0.0 ? area : -area;
 }
 

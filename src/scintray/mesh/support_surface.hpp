@@ -144,10 +144,10 @@ struct PatchExcess {
 /// degrees.
 PatchExcess patch_excess(const SupportSurface& surface, const std::array<core::Vec3, 3>& triangle);
 
-/// Area (mm2) between a chord from a to b and the circle in which the surface intersects the plane through it
-/// with the unit normal `normal`, against which the circle's centre is on the left of the chord; negative
-/// where it is on the right. Zero where that is no circle: a surface, not a sphere, that is cut obliquely,
-/// but for a torus in a plane through its axis.
+/// Area (mm2) between a chord from a to b, or a part of one, and the circle in which the surface intersects
+/// the plane through it with the unit normal `normal`, against which the circle's centre is on the left of
+/// the chord; negative where it is on the right. Zero where that is no circle: a surface, not a sphere, that
+/// is cut obliquely, but for a torus in a plane through its axis.
 double segment_area(const SupportSurface& surface, const core::Vec3& normal, const core::Vec3& a,
                     const core::Vec3& b);
 

@@ -225,7 +225,10 @@ std::uint32_t Accelerator::triangle_at(const BodyHit& hit, const core::Vec3& poi
   for (std::uint32_t i = on.outlines_begin; i < on.outlines_end; ++i) {
     const EndOutline& outline = exact.outlines[i];
     if (outline.face != kNoSurface) {
-      if (exact.is_within(exact.faces[outline.face], point)) return outline.triangle;
+      const TrimmedFace& face = exact.faces[outline.face];
+      const bool beside =
+          (point.array() < face.low.vec().array()).any() || (point.array() > face.high.vec().array()).any();
+      if (!beside && exact.is_within(face, point)) return outline.triangle;
       continue;
     }
     if (std::all_of(exact.outline_of.begin() + outline.quadrics_begin,

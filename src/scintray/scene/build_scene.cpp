@@ -339,9 +339,11 @@ SceneBuilder::SceneBuilder(materials::SurfaceFactory::Hooks hooks, materials::De
 BuiltScene SceneBuilder::build(const scene_file::SceneSpec& spec) {
   core::Problems problems;
   std::vector<contact::PlacedMesh> placed = place_parts(spec, problems, *formats_);
+  const std::vector<contact::ConformingContact> conforming = conforming_contacts(spec);
+  if (problems.empty()) contact::conform_common_walls(placed, conforming, spec.run.contact_tolerance_mm);
   if (problems.empty()) contact::cut_overlaps(placed, spec.run.contact_tolerance_mm, problems);
   if (problems.empty())
-    contact::conform_contacts(placed, conforming_contacts(spec), spec.run.contact_tolerance_mm, problems);
+    contact::conform_contacts(placed, conforming, spec.run.contact_tolerance_mm, problems);
   const materials::MaterialDatabase& database = this->database(spec);
   BuiltScene built;
   AssemblyMaker factory(spec, database, surface_factory_, problems);

@@ -37,7 +37,7 @@ struct SurfaceTriangles {
   std::uint32_t first = kNoSurface;  ///< one of them; kNoSurface: there is none
   /// Where they lead to different regions, all of them: a range of ExactBodies::triangles; else empty.
   std::uint32_t begin = 0, end = 0;
-  /// Of this range, the first lie under the end of another body, whose exact outline decides: a range of
+  /// What lies under the faces of other bodies, whose exact outlines decide before that range: a range of
   /// ExactBodies::outlines.
   std::uint32_t outlines_begin = 0, outlines_end = 0;
 };
@@ -113,8 +113,8 @@ struct BodyNode {
   std::uint32_t second = 0;          ///< of two children; the first is the next node
 };
 
-/// The outline of a body's flat end in a plane: a point of the plane is under it where it is inside all of
-/// these quadrics, of a convex body, or on this face of any other.
+/// The outline of a body's face on the surface of another: a point of the surface is under it where it is on
+/// this face, or, at the flat end of a convex body, inside all of these quadrics.
 struct EndOutline {
   std::uint32_t triangle = 0;  ///< of the region's boundary, under the end
   std::uint32_t quadrics_begin = 0, quadrics_end = 0;

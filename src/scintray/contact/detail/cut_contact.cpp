@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include "scintray/contact/detail/boolean_difference.hpp"
 #include "scintray/contact/detail/facing.hpp"
@@ -46,12 +47,16 @@ std::optional<std::vector<Loop>> outlines_of(const std::vector<std::array<std::u
 
 }  // namespace
 
-ContactSide contact_side(const PlacedMesh& part, const PlacedMesh& other, double tolerance, double flat_mm) {
-  ContactSide side{part, Body(geometry_of(part), Eigen::Matrix3d::Identity()), {}, {}};
+ContactSide contact_side(const PlacedMesh& part, const PlacedMesh& other, const ContactRule& rule,
+                         bool is_reference) {
+  const auto& [own_wall, other_wall] = is_reference
+                                           ? std::tie(rule.wall_of_reference, rule.wall_of_conforming)
+                                           : std::tie(rule.wall_of_conforming, rule.wall_of_reference);
+  ContactSide side{part, Body(geometry_of(part), Eigen::Matrix3d::Identity()), own_wall, {}, {}};
   const Body other_body(geometry_of(other), Eigen::Matrix3d::Identity());
-  for (const Facing f : facing(side.body, other_body, tolerance, flat_mm))
+  for (const Facing f : facing(side.body, other_body, rule.reach, {own_wall, other_wall}))
     side.facing.push_back(f == Facing::covered || f == Facing::partly);
-  side.zone = pushed(part.mesh, side.body, side.facing, kContactPush * tolerance);
+  side.zone = pushed(part.mesh, side.body, side.facing, kContactPush * rule.reach.tolerance);
   return side;
 }
 
@@ -188,9 +193,9 @@ void unite_pieces(CutPart& part) {
 
 }  // namespace
 
-std::optional<CutPart> cut_at_contact(const ContactSide& side, const ContactSide& other, double tolerance,
-                                      double flat_mm, const Eigen::Matrix3d& axes) {
-  const auto cut = imprint_on_grid(side.part.mesh, other.zone, axes, flat_mm);
+std::optional<CutPart> cut_at_contact(const ContactSide& side, const ContactSide& other,
+                                      const ContactReach& reach, const Eigen::Matrix3d& axes) {
+  const auto cut = imprint_on_grid(side.part.mesh, other.zone, axes, reach.flat);
   if (!cut) return std::nullopt;
   CutPart result = only_facing_cut(side, *cut);
   const Body zone(PlacedPart{"", other.zone.vertices, other.zone.triangles,
@@ -199,8 +204,9 @@ std::optional<CutPart> cut_at_contact(const ContactSide& side, const ContactSide
   for (std::size_t t = 0; t < result.origin.size(); ++t) {
     const std::uint32_t own = result.origin[t];
     const core::Vec3 centre = mesh::centre_of(result.mesh, t);
-    result.contact[t] = side.facing[own] && zone.side_of(centre, 0.0) == Side::inside &&
-                        nearest(other.body, centre, side.body.normal[own], true, tolerance).found();
+    result.contact[t] =
+        side.facing[own] && zone.side_of(centre, 0.0) == Side::inside &&
+        nearest(other.body, centre, side.body.normal[own], true, reach.tolerance, &other.wall).found();
   }
   unite_pieces(result);
   std::vector<std::array<std::uint32_t, 3>> contact_triangles;

@@ -20,10 +20,11 @@ std::vector<core::Vec3> samples_of(const Body& body, std::uint32_t t) {
 }
 
 Nearest nearest(const Body& body, const core::Vec3& point, const core::Vec3& normal, bool opposed,
-                double reach) {
+                double reach, const std::vector<char>* only) {
   constexpr double kAligned = 0.7;
   Nearest best;
   for (const std::uint32_t t : body.tree.touching(body.box_of(point, point).grown(reach))) {
+    if (only != nullptr && !only->empty() && !(*only)[t]) continue;
     const double cosine = body.normal[t].dot(normal) * (opposed ? -1.0 : 1.0);
     if (cosine < kAligned) continue;
     const double d =
@@ -33,28 +34,35 @@ Nearest nearest(const Body& body, const core::Vec3& point, const core::Vec3& nor
   return best;
 }
 
-std::vector<Facing> facing(const Body& body, const Body& other, double tolerance, double flat_mm) {
+std::vector<Facing> facing(const Body& body, const Body& other, const ContactReach& reach,
+                           const Contactable& only) {
+  const auto counts = [](const std::vector<char>& mask, std::uint32_t t) { return mask.empty() || mask[t]; };
   std::vector<Facing> result(body.triangles.size(), Facing::none);
   std::vector<char> touched(body.triangles.size(), 0);
   std::vector<double> farthest(body.triangles.size(), 0.0);
-  for (std::uint32_t t = 0; t < other.triangles.size(); ++t)
+  for (std::uint32_t t = 0; t < other.triangles.size(); ++t) {
+    if (!counts(only.of_other, t)) continue;
     for (const core::Vec3& point : samples_of(other, t))
-      if (const Nearest n = nearest(body, point, other.normal[t], true, tolerance); n.found()) {
+      if (const Nearest n = nearest(body, point, other.normal[t], true, reach.tolerance, &only.of_body);
+          n.found()) {
         touched[n.triangle] = 1;
         farthest[n.triangle] = std::max(farthest[n.triangle], n.distance);
       }
+  }
   for (std::uint32_t t = 0; t < body.triangles.size(); ++t) {
+    if (!counts(only.of_body, t)) continue;
     std::size_t near = 0;
     const auto points = samples_of(body, t);
     for (const core::Vec3& point : points)
-      if (const Nearest n = nearest(other, point, body.normal[t], true, tolerance); n.found()) {
+      if (const Nearest n = nearest(other, point, body.normal[t], true, reach.tolerance, &only.of_other);
+          n.found()) {
         ++near;
         farthest[t] = std::max(farthest[t], n.distance);
       }
     if (near == points.size()) {
       result[t] = Facing::covered;
     } else if (near > 0 || touched[t]) {
-      result[t] = farthest[t] <= flat_mm ? Facing::flat : Facing::partly;
+      result[t] = farthest[t] <= reach.flat ? Facing::flat : Facing::partly;
     }
   }
   return result;

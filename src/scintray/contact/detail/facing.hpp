@@ -27,12 +27,24 @@ struct Nearest {
   double distance = HUGE_VAL;
   bool found() const { return triangle != ~0U; }
 };
+/// @param only  per triangle, whether it counts; null: all do
 Nearest nearest(const Body& body, const core::Vec3& point, const core::Vec3& normal, bool opposed,
-                double reach);
+                double reach, const std::vector<char>* only = nullptr);
 
-/// Contact of each triangle of `body` with `other`. Faces within `flat_mm` of each other are in contact
-/// already.
-std::vector<Facing> facing(const Body& body, const Body& other, double tolerance, double flat_mm);
+/// Which triangles of two bodies can be in contact, per triangle; empty: all.
+struct Contactable {
+  std::vector<char> of_body, of_other;
+};
+
+/// How near faces in contact are, mm.
+struct ContactReach {
+  double tolerance;  ///< of the contact
+  double flat;       ///< of the scene: faces within this are in contact already
+};
+
+/// Contact of each triangle of `body` with `other`.
+std::vector<Facing> facing(const Body& body, const Body& other, const ContactReach& reach,
+                           const Contactable& only = {});
 
 /// Moves vertices of `mesh`, whose geometry `body` is, so that the planes of marked triangles move outwards
 /// by `by` and those of their neighbours do not move (least squares, weighted by area so that slivers, whose

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "scintray/contact/detail/conformer.hpp"
 #include "scintray/contact/detail/geometry.hpp"
 #include "scintray/contact/placed_mesh.hpp"
 #include "scintray/mesh/trimesh.hpp"
@@ -26,8 +27,8 @@ namespace scintray::contact {
 ///
 /// @return empty on success, when both parts are changed, with a note each; otherwise the reason of the
 /// failure
-[[nodiscard]] std::string stitch(PlacedMesh& reference, PlacedMesh& conforming, double tolerance_mm,
-                                 double flat_mm, const Eigen::Matrix3d& axes);
+[[nodiscard]] std::string stitch(PlacedMesh& reference, PlacedMesh& conforming, const ContactRule& rule,
+                                 const Eigen::Matrix3d& axes);
 
 /// Displacement of facing triangles, in tolerances: beyond the deepest sliver, with a margin.
 inline constexpr double kContactPush = 2.0;
@@ -46,17 +47,19 @@ struct CutPart {
 struct ContactSide {
   const PlacedMesh& part;
   Body body;
+  std::vector<char> wall;    ///< as in ContactRule
   std::vector<char> facing;  ///< per triangle: in part or wholly within the tolerance of the other part
   mesh::TriMesh zone;        ///< pushed outwards there
 };
 
-ContactSide contact_side(const PlacedMesh& part, const PlacedMesh& other, double tolerance, double flat_mm);
+/// The side of the reference part, or of the conforming one.
+ContactSide contact_side(const PlacedMesh& part, const PlacedMesh& other, const ContactRule& rule,
+                         bool is_reference);
 
 /// The part cut along the outline of its contact with the other. Empty when CGAL fails, or the contact has no
 /// simple outline.
 [[nodiscard]] std::optional<CutPart> cut_at_contact(const ContactSide& side, const ContactSide& other,
-                                                    double tolerance, double flat_mm,
-                                                    const Eigen::Matrix3d& axes);
+                                                    const ContactReach& reach, const Eigen::Matrix3d& axes);
 
 /// Puts vertex `v` on the edge between two vertices: each triangle there becomes two. `origin` and `contact`
 /// follow.

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "scintray/scene/detail/round_parts.hpp"
@@ -131,20 +132,25 @@ class RegionBodies {
       return triangles_[i].label == triangles_[list.front()].label;
     });
     if (one_label) return;
-    std::map<core::PartId, std::uint32_t> ends;  // of round parts on the plane
-    std::vector<std::uint32_t> rest;
-    for (const std::uint32_t i : list) {
-      const RegionTriangle& t = triangles_[i];
-      const bool under_end =
-          t.body == of_ && t.other.has_value() && t.support == mesh::kNoSupport && bodies_[t.other].round;
-      if (under_end)
-        ends.try_emplace(t.other, i);
-      else
-        rest.push_back(i);
-    }
+    std::map<core::PartId, std::vector<std::uint32_t>> under;  // round parts on the surface
+    for (const std::uint32_t i : list)
+      if (const RegionTriangle& t = triangles_[i];
+          t.body == of_ && t.other.has_value() && t.other != of_ && bodies_[t.other].round)
+        under[t.other].push_back(i);
+    std::map<core::PartId, std::uint32_t> ends;  // those that lead to one region by one interface
+    for (const auto& [part, own] : under)
+      if (std::all_of(own.begin(), own.end(),
+                      [&](std::uint32_t i) { return triangles_[i].label == triangles_[own.front()].label; }))
+        ends.emplace(part, own.front());
     surface.outlines_begin = static_cast<std::uint32_t>(result_.outlines.size());
     add_outlines(ends);
     surface.outlines_end = static_cast<std::uint32_t>(result_.outlines.size());
+    std::set<core::PartId> outlined;
+    for (std::uint32_t i = surface.outlines_begin; i < surface.outlines_end; ++i)
+      outlined.insert(triangles_[result_.outlines[i].triangle].other);
+    std::vector<std::uint32_t> rest;
+    for (const std::uint32_t i : list)
+      if (triangles_[i].body != of_ || !outlined.contains(triangles_[i].other)) rest.push_back(i);
     if (rest.empty()) rest = list;
     surface.begin = static_cast<std::uint32_t>(result_.triangles.size());
     result_.triangles.insert(result_.triangles.end(), rest.begin(), rest.end());
@@ -157,10 +163,18 @@ class RegionBodies {
     for (const auto& [part, triangle] : ends) sizes.emplace_back(farthest(part, local_centre(part)), part);
     std::sort(sizes.begin(), sizes.end());
     for (const auto& [size, part] : sizes) {
+      const RegionTriangle& under = triangles_[ends.at(part)];
       EndOutline outline;
       outline.triangle = ends.at(part);
+      if (under.support != mesh::kNoSupport) {
+        const std::optional<PartFace> face = round_face(part, under);
+        if (!face) continue;
+        outline.face = add_trimmed_face(*face, frame_, {}, result_);  // for its outline alone
+        result_.outlines.push_back(outline);
+        continue;
+      }
       if (!bodies_[part].faces.empty()) {
-        outline.face = end_face(part, triangles_[outline.triangle]);
+        outline.face = end_face(part, under);
         result_.outlines.push_back(outline);
         continue;
       }
@@ -170,6 +184,32 @@ class RegionBodies {
       outline.quadrics_end = static_cast<std::uint32_t>(result_.outline_of.size());
       result_.outlines.push_back(outline);
     }
+  }
+
+  /// The face of a part on the round surface that it has in common with this region's part, at a triangle
+  /// under it. Nothing where that is not found.
+  std::optional<PartFace> round_face(core::PartId part, const RegionTriangle& under) const {
+    const PartBody &own = bodies_[of_], &other = bodies_[part];
+    Corners corners;
+    for (std::size_t k = 0; k < 3; ++k) corners[k] = frame_.centre + frame_.rotation * under.local[k];
+    const auto common =
+        std::find_if(other.quadrics.begin(), other.quadrics.end(), [&](const mesh::SupportSurface& surface) {
+          return surface.kind() == own.quadrics[under.support].kind() &&
+                 own.quadrics[under.support].agrees_with(surface, corners, other.off_surface_mm);
+        });
+    if (common == other.quadrics.end()) return std::nullopt;
+    const auto number = static_cast<std::uint32_t>(common - other.quadrics.begin());
+    for (const PartFace& face : other.faces)
+      if (face.quadric == number) return face;
+    if (!other.convex) return std::nullopt;
+    PartFace face;  // where the part is inside of all its other surfaces
+    face.quadric = number;
+    face.corners = other.corners;
+    face.bulge_mm = 2.0 * other.deviation_mm;
+    for (const WorldPlane& plane : other.planes) face.trims.push_back({std::nullopt, plane, false});
+    for (const mesh::SupportSurface& surface : other.quadrics)
+      if (&surface != &*common) face.trims.push_back({surface, {}, false});
+    return face;
   }
 
   /// The flat face of a part that is not convex, at a triangle under it, in this region's frame.

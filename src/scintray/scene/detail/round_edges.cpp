@@ -56,6 +56,7 @@ class RoundEdges {
       for (const core::Vec3& corner : t.corners) box_.extend(corner);
     for (std::size_t t = 0; t < triangles_.size(); ++t)
       for (std::size_t k = 0; k < 3; ++k) at_[{key(corner(t, k)), key(corner(t, k + 1))}] = t;
+    join_divided_sides();
   }
 
   std::vector<std::array<mesh::PatchExcess, 3>> excess() const {
@@ -68,7 +69,8 @@ class RoundEdges {
 
   /// The extremes along each axis are at corners, on sides of the patches, or where a surface's normal is
   /// along the axis.
-  Eigen::AlignedBox3d bounds() const {
+  Eigen::AlignedBox3d bounds() {
+    find_moved_corners();
     Eigen::AlignedBox3d box = box_;
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
       if (triangles_[t].support == mesh::kNoSupport || is_degenerate(t)) continue;
@@ -91,6 +93,54 @@ class RoundEdges {
  private:
   using Key = std::array<double, 3>;
   static Key key(const core::Vec3& v) { return {v.x() + 0.0, v.y() + 0.0, v.z() + 0.0}; }
+  /// Where a contact divided one side of an edge, finds for each piece, and for the whole, a triangle beyond
+  /// it.
+  void join_divided_sides() {
+    struct Side {
+      std::size_t t, k;
+    };
+    std::vector<Side> round, flat;  // without a triangle beyond them
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+      if (is_degenerate(t)) continue;
+      for (std::size_t k = 0; k < 3; ++k)
+        if (!at_.contains({key(corner(t, k + 1)), key(corner(t, k))}))
+          (triangles_[t].support == mesh::kNoSupport ? flat : round).push_back({t, k});
+    }
+    const double near = 1e-9 * box_.diagonal().norm();
+    const auto is_within = [&](const core::Vec3& point, const Side& side) {
+      return mesh::distance_to_segment(point, corner(side.t, side.k), corner(side.t, side.k + 1)) <= near;
+    };
+    const auto along = [&](const Side& side) {
+      return core::Vec3(corner(side.t, side.k + 1) - corner(side.t, side.k));
+    };
+    for (const Side& a : round)
+      for (const Side& b : flat) {
+        if (along(a).dot(along(b)) > -0.5 * along(a).norm() * along(b).norm()) continue;
+        const bool shares = is_within(0.5 * (corner(a.t, a.k) + corner(a.t, a.k + 1)), b) ||
+                            is_within(0.5 * (corner(b.t, b.k) + corner(b.t, b.k + 1)), a);
+        if (!shares) continue;
+        at_[{key(corner(a.t, a.k + 1)), key(corner(a.t, a.k))}] = b.t;
+        at_[{key(corner(b.t, b.k + 1)), key(corner(b.t, b.k))}] = a.t;
+      }
+  }
+
+  /// The corners of edges that are not on them, in the middle of a side that a contact cut, and their places
+  /// there.
+  void find_moved_corners() {
+    for (std::size_t t = 0; t < triangles_.size(); ++t)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::optional<FaceSurface> other = beyond(t, k);
+        if (!other) continue;
+        for (const core::Vec3& end : {corner(t, k), corner(t, k + 1)}) {
+          const std::optional<core::Vec3> place = onto_both(surface(t), *other, end);
+          if (place && (*place - end).norm() > 1e-9 * box_.diagonal().norm()) moved_[key(end)] = *place;
+        }
+      }
+  }
+  const core::Vec3& true_corner(std::size_t t, std::size_t k) const {
+    const auto moved = moved_.find(key(corner(t, k)));
+    return moved == moved_.end() ? corner(t, k) : moved->second;
+  }
   const core::Vec3& corner(std::size_t t, std::size_t k) const { return triangles_[t].corners[k % 3]; }
   bool is_degenerate(std::size_t t) const { return doubled_area(triangles_[t].corners).isZero(0.0); }
 
@@ -169,7 +219,7 @@ class RoundEdges {
   void add_side(std::size_t t, std::size_t k, Eigen::AlignedBox3d& box) const {
     const FaceSurface own = surface(t);
     const std::optional<FaceSurface> other = beyond(t, k);
-    const core::Vec3 &from = corner(t, k), &to = corner(t, k + 1);
+    const core::Vec3 &from = true_corner(t, k), &to = true_corner(t, k + 1);
     const auto point_at = [&](double share) {
       const core::Vec3 chord = from + share * (to - from);
       return (other ? onto_both(own, *other, chord) : std::nullopt).value_or(own.onto(chord));
@@ -235,6 +285,7 @@ class RoundEdges {
   const std::vector<mesh::SupportSurface>& supports_;
   Eigen::AlignedBox3d box_;
   std::map<std::pair<Key, Key>, std::size_t> at_;  ///< triangle by its directed side
+  std::map<Key, core::Vec3> moved_;  ///< corners that are not on their edges, and their places there
 };
 
 }  // namespace
