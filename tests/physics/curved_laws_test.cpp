@@ -411,7 +411,8 @@ TEST_CASE("Law: light in nested round bodies between white walls fills them as n
   const double weights[] = {shell, 2.25 * rod, 3.24 * ball};
   const double sum = weights[0] + weights[1] + weights[2];
   const PhotonSource source(spec.source, built.scene);
-  // Of windows with a number of interactions, sums have the ratio of the law; the mean of their ratios does not.
+  // Of windows with a number of interactions, sums have the ratio of the law; the mean of their ratios does
+  // not.
   std::vector<std::array<double, 3>> paths;
   std::array<double, 3> total{};
   const int photons = law_photons(4'000);

@@ -14,6 +14,7 @@
 #include <string>
 
 #include "scintray/core/error.hpp"
+#include "scintray/mesh/cylinder_arrival.hpp"
 #include "scintray/mesh/triangle_distance.hpp"
 #include "scintray/scene/detail/nearest_plane.hpp"
 
@@ -150,6 +151,10 @@ Accelerator::Accelerator(Boundary boundary)
     embree_ = std::make_unique<EmbreeScene>(boundary_.vertices,
                                             std::span(boundary_.corners).first(3 * boundary_.meshed()));
   index_facets();
+  const std::vector<BodyQuadric>& quadrics = boundary_.exact.quadrics;
+  convex_cylinders_ = is_convex_body() && !quadrics.empty() &&
+                      std::all_of(quadrics.begin(), quadrics.end(),
+                                  [](const BodyQuadric& quadric) { return quadric.surface.is_cylinder(); });
 }
 
 Accelerator::~Accelerator() = default;
@@ -279,10 +284,22 @@ core::Vec3 Accelerator::normal_at(std::uint32_t triangle, const core::Vec3& poin
   return boundary_.exact.empty() ? core::Vec3(normal(triangle)) : nearest_at(triangle, point).normal;
 }
 
+namespace {
+
+mesh::Foot arrival_on(const mesh::SupportSurface& cylinder, const core::Vec3& point) {
+  const mesh::FootOf<double> foot =
+      mesh::arrival_on_cylinder(cylinder.numbers<mesh::QuadricShape::cylinder>(),
+                                Accelerator::inverse_radius(cylinder), core::triple(point));
+  return {core::vec(foot.step), core::vec(foot.normal)};
+}
+
+}  // namespace
+
 mesh::Foot Accelerator::nearest_at(std::uint32_t triangle, const core::Vec3& point) const {
   const std::uint32_t quadric = boundary_.exact.quadric_of[triangle];
   if (quadric == kNoSurface) return {core::Vec3::Zero(), normal(triangle)};
-  mesh::Foot nearest = boundary_.exact.quadrics[quadric].surface.nearest(point);
+  const mesh::SupportSurface& surface = boundary_.exact.quadrics[quadric].surface;
+  mesh::Foot nearest = convex_cylinders_ ? arrival_on(surface, point) : surface.nearest(point);
   if (!boundary_.exact.quadrics[quadric].around_region) nearest.normal = -nearest.normal;
   return nearest;
 }

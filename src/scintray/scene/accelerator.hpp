@@ -2,6 +2,7 @@
 /// Ray queries: the point at which a photon leaves a region. All use of Embree is in accelerator.cpp.
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -110,6 +111,12 @@ class Accelerator {
     const ExactBodies& exact = boundary_.exact;
     return exact.held && exact.bodies.size() == 1 && exact.bodies.front().is_convex() && !embree_;
   }
+  /// Whether it is that, and all its quadrics are cylinders.
+  bool is_convex_cylinders() const { return convex_cylinders_; }
+  /// 1 over the radius of a cylinder, 1/mm.
+  static double inverse_radius(const mesh::SupportSurface& cylinder) {
+    return 1.0 / std::sqrt(cylinder.radius2);
+  }
   /// Number of distinct planes that bound the region, when it is convex.
   std::size_t plane_count() const { return boundary_.planes.size(); }
   /// All records of the accelerator; Embree's scene is made from them.
@@ -143,6 +150,7 @@ class Accelerator {
 
   Boundary boundary_;
   double start_mm_ = 0.0;  ///< distance from the origin at which rays start
+  bool convex_cylinders_ = false;
   std::unique_ptr<EmbreeScene> embree_;
   std::vector<std::unique_ptr<EmbreeScene>> facets_;  ///< of round faces that lead to several regions
 };

@@ -1,11 +1,14 @@
 #pragma once
 /// One contact of two parts: one keeps its shape, and the other adopts it.
 
+#include <algorithm>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "scintray/contact/detail/facing.hpp"
 #include "scintray/contact/placed_mesh.hpp"
+#include "scintray/mesh/boolean.hpp"
 
 namespace scintray::contact {
 

@@ -138,10 +138,12 @@ class RegionBodies {
           t.body == of_ && t.other.has_value() && t.other != of_ && bodies_[t.other].round)
         under[t.other].push_back(i);
     std::map<core::PartId, std::uint32_t> ends;  // those that lead to one region by one interface
-    for (const auto& [part, own] : under)
+    for (const auto& [part, own] : under) {
+      const std::uint32_t first = own.front();
       if (std::all_of(own.begin(), own.end(),
-                      [&](std::uint32_t i) { return triangles_[i].label == triangles_[own.front()].label; }))
-        ends.emplace(part, own.front());
+                      [&](std::uint32_t i) { return triangles_[i].label == triangles_[first].label; }))
+        ends.emplace(part, first);
+    }
     surface.outlines_begin = static_cast<std::uint32_t>(result_.outlines.size());
     add_outlines(ends);
     surface.outlines_end = static_cast<std::uint32_t>(result_.outlines.size());

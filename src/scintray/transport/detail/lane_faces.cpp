@@ -21,6 +21,8 @@ LaneBody::Face numbers_of(const scene::BodyQuadric& quadric) {
   face.axial = quadric.surface.axial;
   face.slope = quadric.surface.slope;
   face.radius2 = quadric.surface.radius2;
+  if (quadric.surface.is_cylinder())
+    face.inverse_radius = scene::Accelerator::inverse_radius(quadric.surface);
   face.outwards = quadric.around_region ? 1.0 : -1.0;
   return face;
 }
@@ -40,11 +42,8 @@ LaneFaces::LaneFaces(const scene::Accelerator& accelerator) : boundary_(&acceler
   };
   for (std::uint32_t i = body.planes_begin; i < body.planes_end; ++i) add(exact.planes[i]);
   flat_ = body.planes_end - body.planes_begin;
-  cylinders_ = true;
-  for (std::uint32_t i = body.quadrics_begin; i < body.quadrics_end; ++i) {
-    add(exact.quadrics[i]);
-    cylinders_ = cylinders_ && exact.quadrics[i].surface.is_cylinder();
-  }
+  cylinders_ = accelerator.is_convex_cylinders();
+  for (std::uint32_t i = body.quadrics_begin; i < body.quadrics_end; ++i) add(exact.quadrics[i]);
 }
 
 LanePlanes LaneFaces::planes() const {

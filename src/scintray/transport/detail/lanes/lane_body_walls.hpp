@@ -3,6 +3,7 @@
 /// the numbers that ExactBodies::nearest and CurvedPropagation (propagation_states.hpp) have for one photon,
 /// in the same order.
 
+#include "scintray/mesh/cylinder_arrival.hpp"
 #include "scintray/mesh/quadric_laws.hpp"
 #include "scintray/transport/detail/lanes/lane_fours.hpp"
 #include "scintray/transport/detail/lanes/lane_kernel.hpp"
@@ -72,21 +73,28 @@ class LaneBodyWalls {
     const Real zero(0.0);
     const Mask flat = ahead.plane < Real(static_cast<double>(body_.planes));
     const Wall wall = body_.count - body_.planes == 1 ? only_wall() : walls_at(faces);
-    const mesh::FootOf<Real> round = wall.quadric.nearest(there - centre);
+    const mesh::FootOf<Real> round = foot(wall, there - centre);
     there = there + select(flat, Vector{zero, zero, zero}, round.step);
     const Vector normal = select(flat, ahead.normal, wall.outwards * round.normal);
     return {normal, dot(direction, normal)};
   }
 
  private:
-  /// A quadric, and LaneBody::Face::outwards of it; of a plane any numbers.
+  /// A quadric, and numbers of LaneBody::Face; of a plane any numbers.
   struct Wall {
     Quadric quadric;
-    Real outwards;
+    Real outwards, inverse_radius;
   };
+  /// As Accelerator::nearest_at.
+  static mesh::FootOf<Real> foot(const Wall& wall, const Vector& point) {
+    if constexpr (kShape == mesh::QuadricShape::cylinder)
+      return mesh::arrival_on_cylinder(wall.quadric, wall.inverse_radius, point);
+    else
+      return wall.quadric.nearest(point);
+  }
   Wall only_wall() const {
     const LaneBody::Face& face = body_.faces[body_.planes];
-    return {quadric(face), Real(face.outwards)};
+    return {quadric(face), Real(face.outwards), Real(face.inverse_radius)};
   }
   Wall walls_at(const LaneNumbers<Real>& faces) const {
     const double *first[Real::kWidth], *second[Real::kWidth], *third[Real::kWidth];
@@ -98,7 +106,9 @@ class LaneBodyWalls {
     load_fours(first, a);
     load_fours(second, b);
     load_fours(third, c);
-    return {{{a.of[0], a.of[1], a.of[2]}, {b.of[0], b.of[1], b.of[2]}, a.of[3], b.of[3], c.of[0]}, c.of[1]};
+    return {{{a.of[0], a.of[1], a.of[2]}, {b.of[0], b.of[1], b.of[2]}, a.of[3], b.of[3], c.of[0]},
+            c.of[1],
+            c.of[2]};
   }
   static Quadric quadric(const LaneBody::Face& face) {
     return {vector_of(face.origin), vector_of(face.axis), Real(face.axial), Real(face.slope),

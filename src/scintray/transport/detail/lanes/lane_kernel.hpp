@@ -40,9 +40,9 @@ struct LaneBody {
     double origin[3], axial;  ///< of a plane 0
     double axis[3], slope;    ///< of a plane its normal, of unit length and out of the region; 0
     double radius2;
-    double outwards;  ///< 1: normals of the quadric point out of the region, -1: into it; of a plane 1
-    double unused;    ///< so that the last ones are four
-    double offset;    ///< of a plane: the product of normal and any point of it
+    double outwards;        ///< 1: normals of the quadric point out of the region, -1: into it; of a plane 1
+    double inverse_radius;  ///< of a cylinder, 1/mm; else 0
+    double offset;          ///< of a plane: the product of normal and any point of it
   };
   const Face* faces = nullptr;
   std::uint32_t planes = 0, count = 0;
