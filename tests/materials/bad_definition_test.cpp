@@ -109,6 +109,9 @@ TEST_CASE("a dispersion formula that fails in its range is refused") {
       0, "c_um2"));
   CHECK(reports(medium_problems(kPlain + "cauchy = { a = [1.5], range = [\"700 nm\", \"350 nm\"] }\n"), 6,
                 "range"));
+  // Two metres, in steps of a nanometre.
+  CHECK(reports(medium_problems(kPlain + "cauchy = { a = [1.5], range = [\"310 nm\", \"2147483647 nm\"] }\n"),
+                6, "far beyond the light"));
 }
 
 TEST_CASE("scintillation is complete or absent") {

@@ -20,6 +20,9 @@ namespace {
 constexpr core::Word<optics::ScatteringKind> kScatteringKinds[] = {
     {"rayleigh", optics::ScatteringKind::rayleigh}, {"isotropic", optics::ScatteringKind::isotropic}};
 
+/// Most steps of a formula's table: to 0.1 mm.
+constexpr double kMostFormulaSteps = 1e5;
+
 /// Tabulates n(wavelength) over `range` of a formula's table. `index_at` takes 1/wavelength^2 in 1/um^2 and
 /// returns a non-finite value where the formula is not defined.
 template <class Formula>
@@ -28,6 +31,11 @@ core::Curve tabulate(const config::TomlTable& formula, const Formula& index_at) 
   if (range.empty()) return core::Curve::constant(1.0);
   formula.expect("range", range[0] > 0.0 && range[1] > range[0],
                  "\"range\" must be two positive wavelengths, the smaller first");
+  if (formula.good("range"))
+    formula.expect(
+        "range", range[1] - range[0] <= kMostFormulaSteps * kFormulaStep_nm,
+        fmt::format("\"range\" ends at {:g} nm, which is far beyond the light that is traced", range[1]),
+        "give the wavelengths in which the formula holds, some micrometres at most");
   if (!formula.good("range")) return core::Curve::constant(1.0);
   const auto steps = static_cast<std::size_t>(std::ceil((range[1] - range[0]) / kFormulaStep_nm));
   std::vector<double> x, y;
