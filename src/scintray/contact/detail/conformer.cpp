@@ -14,8 +14,8 @@ const mesh::SupportSurface* surface_of(const mesh::TriMesh& mesh, std::uint32_t 
   return support == mesh::kNoSupport ? nullptr : &mesh.supports[support];
 }
 
-void keep_supports(const mesh::TriMesh& before, const std::vector<TriangleSource>& sources,
-                   double tolerance_mm, mesh::TriMesh& after) {
+void keep_own_supports(const mesh::TriMesh& before, const std::vector<TriangleSource>& sources,
+                       double tolerance_mm, mesh::TriMesh& after) {
   after.supports.clear();
   after.support.clear();
   if (before.supports.empty()) return;
@@ -77,7 +77,7 @@ std::string Conformer::conform(const Eigen::Matrix3d& axes) {
     sources.push_back(source);
     face_of.push_back(conforming_.face_of[source.own]);
   }
-  keep_supports(conforming_.mesh, sources, rule_.reach.flat, cut->mesh);
+  keep_own_supports(conforming_.mesh, sources, rule_.reach.flat, cut->mesh);
   const mesh::MeshDiagnosis diagnosis = mesh::diagnose_in_place(cut->mesh);
   const auto unsound = mesh::mesh_problems(diagnosis, conforming_.name);
   if (!unsound.empty()) return "afterwards " + unsound.front().what;

@@ -34,8 +34,8 @@ const mesh::SupportSurface* surface_of(const mesh::TriMesh& mesh, std::uint32_t 
 
 /// Assigns to the triangles of a changed part the support surfaces of those that they replace, unless it
 /// adopted one whose surface there is not the same within `tolerance_mm`: then it has none.
-void keep_supports(const mesh::TriMesh& before, const std::vector<TriangleSource>& sources,
-                   double tolerance_mm, mesh::TriMesh& after);
+void keep_own_supports(const mesh::TriMesh& before, const std::vector<TriangleSource>& sources,
+                       double tolerance_mm, mesh::TriMesh& after);
 
 /// A contact in which `reference` keeps its shape and `conforming` adopts it.
 class Conformer {

@@ -139,10 +139,10 @@ std::string stitch(PlacedMesh& reference, PlacedMesh& conforming, const ContactR
   for (const std::uint32_t own : rest.cut.origin) rest.sources.push_back({own, false});
   if (!add_contact(*reference_cut, reference, knots, kContactPush * tolerance, rest))
     return "a face would move by more than twice the tolerance";
-  keep_supports(conforming.mesh, rest.sources, rule.reach.flat, rest.cut.mesh);
+  keep_own_supports(conforming.mesh, rest.sources, rule.reach.flat, rest.cut.mesh);
   std::vector<TriangleSource> own_pieces;
   for (const std::uint32_t own : reference_cut->origin) own_pieces.push_back({own, false});
-  keep_supports(reference.mesh, own_pieces, rule.reach.flat, reference_cut->mesh);
+  keep_own_supports(reference.mesh, own_pieces, rule.reach.flat, reference_cut->mesh);
 
   PlacedMesh new_reference = reference, new_conforming = conforming;
   for (const std::string& why : {replace_mesh(new_reference, std::move(*reference_cut)),
