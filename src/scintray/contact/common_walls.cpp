@@ -149,15 +149,8 @@ double corners_off_surface(const mesh::TriMesh& mesh) {
 
 /// Whether the contacts of two parts alone can be resolved.
 bool fit_together(const PlacedMesh& a, const PlacedMesh& b, double flat_mm) {
-  std::vector<PlacedPart> pair;
-  std::uint32_t faces = 0;
-  for (const PlacedMesh* part : {&a, &b}) {
-    pair.push_back(geometry_of(*part));
-    for (core::FaceId& face : pair.back().face) face = core::FaceId(faces);
-    ++faces;
-  }
   try {
-    return !resolve_contacts(pair, flat_mm).empty();
+    return !resolve_contacts({geometry_of(a), geometry_of(b)}, flat_mm).empty();
   } catch (const core::Error&) {
     return false;
   }
