@@ -109,6 +109,35 @@ TEST_CASE("GDML: entities of files, of texts, within each other and in attribute
   check_contains(folder.draft().toml, "box = { low = [\"-1 mm\", \"-1 mm\", \"-1 mm\"]");
 }
 
+TEST_CASE("GDML: parameter entities declare the entities of a detector in files of their own") {
+  const ModuleFolder folder("parameter_entities");
+  GdmlText text;
+  text.define = "<constant name=\"size\" value=\"&size;\"/>\n";
+  text.materials = "&materials;\n";
+  text.solids = "<box name=\"it\" x=\"size\" y=\"&size;\" z=\"&size;\"/>\n";
+  text.structure = gdml_volume("body", "it", "Glass");
+  text.daughters = gdml_placed("p", "body", "<position x=\"&far;\"/>");
+  folder.write("main.gdml", with_doctype(text, R"(<!ENTITY % shared SYSTEM "parts/shared.ent">
+<!ENTITY size "2">
+%shared;
+<!ENTITY % one "<!ENTITY far '20'>">
+%one;
+)"));
+  // Files are named from the folder of the file that names them.
+  folder.write("parts/shared.ent",
+               "<?xml version=\"1.0\"?>\n<!ENTITY size \"7: the first counts\">\n<!ENTITY % base \"ma\">\n"
+               "<!ENTITY materials SYSTEM \"materials.xml\">\n<!ENTITY % more SYSTEM \"more.ent\">\n%more;\n"
+               "<!ENTITY named \"%base;terial\">\n");
+  folder.write("parts/more.ent", "<!-- nothing --> <!ENTITY far \"30\">\n");
+  folder.write("parts/materials.xml",
+               "<material name=\"Glass\"><!-- &named; --><property name=\"RINDEX\" ref=\"N15\"/><D "
+               "value=\"1.2\"/></material>\n");
+  const scene_file::SceneSpec spec = folder.spec();
+  REQUIRE(spec.parts.size() == 1);
+  CHECK(spec.parts[0].placement.translate.isApprox(core::Vec3(30, 0, 0)));
+  check_contains(folder.draft().toml, "box = { low = [\"-1 mm\", \"-1 mm\", \"-1 mm\"]");
+}
+
 TEST_CASE("GDML: an error in an included file is at that file's line") {
   const ModuleFolder folder("places");
   GdmlText text;
@@ -240,8 +269,24 @@ TEST_CASE(
   folder.write("self.xml", "<!-- --> &a;");
   check_contains(entities("<!ENTITY a SYSTEM \"self.xml\">", "&a;"), {"self.xml:1:10:", "contains itself"});
   check_contains(entities("<!ENTITY a SYSTEM \"self.xml\">", "<box name=\"&a;\"/>"), "in an attribute");
-  check_contains(entities("<!ENTITY % a SYSTEM \"self.xml\">", ""), "of a form that is not read");
-  check_contains(entities("%a;", ""), "parameter entity");
+  check_contains(entities("<!ENTITY a SYSTEM>", ""), "of a form that is not read");
+  check_contains(entities("%a;", ""), {"main.gdml:4:1:", "parameter entity", "%a;", "not declared"});
+  folder.write("loop.ent", "\n%a;");
+  check_contains(entities("<!ENTITY % a SYSTEM \"loop.ent\">%a;", ""), {"loop.ent:2:1:", "contains itself"});
+  check_contains(entities("<!ENTITY % a SYSTEM \"/etc/hostname\">%a;", ""), "not in the folder");
+  folder.write("sections.ent", "<![IGNORE[ ]]>");
+  check_contains(entities("<!ENTITY % a SYSTEM \"sections.ent\">%a;", ""),
+                 {"sections.ent:1:1:", "conditional section"});
+  folder.write("file_within.ent", "<!ENTITY % f SYSTEM \"self.xml\"><!ENTITY b \"%f;\">");
+  check_contains(entities("<!ENTITY % a SYSTEM \"file_within.ent\">%a;", ""), "within the text of an entity");
+  std::string many = "<!ENTITY % m0 \"<!-- many and many -->\">\n";
+  for (int i = 1; i < 12; ++i) {
+    many += "<!ENTITY % m" + std::to_string(i) + " \"";
+    for (int copy = 0; copy < 10; ++copy) many += "%m" + std::to_string(i - 1) + ";";
+    many += "\">\n";
+  }
+  folder.write("many.ent", many + "%m11;");
+  check_contains(entities("<!ENTITY % a SYSTEM \"many.ent\">%a;", ""), {"many.ent:", "over 8 MiB"});
   // A billion laughs: each entity is ten of the one before.
   std::string laughs = "<!ENTITY l0 \"<!-- laughs and laughs -->\">\n";
   for (int i = 1; i < 12; ++i) {

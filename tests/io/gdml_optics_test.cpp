@@ -296,13 +296,17 @@ TEST_CASE("GDML: coated faces, metals with an index and GLISUR have their own mo
 <opticalsurface name="film" model="unified" finish="polished" type="coated" value="0">
 <property name="COATEDRINDEX" ref="CI"/><property name="COATEDTHICKNESS" ref="CT"/>
 <property name="COATEDFRUSTRATEDTRANSMISSION" ref="ON"/></opticalsurface>
+<opticalsurface name="rough_film" model="unified" finish="ground" type="coated" value="0.2">
+<property name="COATEDRINDEX" ref="CI"/><property name="COATEDTHICKNESS" ref="CT"/></opticalsurface>
+<opticalsurface name="smeared_film" model="glisur" finish="ground" type="coated" value="0.7">
+<property name="COATEDRINDEX" ref="CI"/><property name="COATEDTHICKNESS" ref="CT"/></opticalsurface>
 <opticalsurface name="metal" model="unified" finish="polished" type="dielectric_metal" value="0">
 <property name="REALRINDEX" ref="MN"/><property name="IMAGINARYRINDEX" ref="MK"/></opticalsurface>
 <opticalsurface name="smeared" model="glisur" finish="ground" type="dielectric_dielectric" value="0.2"/>
 <opticalsurface name="smeared_metal" model="glisur" finish="ground" type="dielectric_metal" value="0.2">
 <property name="REFLECTIVITY" ref="R40"/></opticalsurface>)";
-  const char* names[] = {"film", "metal", "smeared", "smeared_metal"};
-  for (int i = 0; i < 4; ++i) {
+  const char* names[] = {"film", "metal", "smeared", "smeared_metal", "rough_film", "smeared_film"};
+  for (int i = 0; i < 6; ++i) {
     const std::string v = "v" + std::to_string(i);
     text.structure += gdml_volume(v, "it") + "<skinsurface name=\"s" + std::to_string(i) +
                       "\" surfaceproperty=\"" + names[i] + "\"><volumeref ref=\"" + v + "\"/></skinsurface>";
@@ -314,6 +318,9 @@ TEST_CASE("GDML: coated faces, metals with an index and GLISUR have their own mo
   CHECK(spec.surfaces.at("metal")->find("model")->text == "metal");
   CHECK(spec.surfaces.at("smeared")->find("model")->text == "glisur");
   CHECK(spec.surfaces.at("smeared_metal")->find("model")->text == "metal");
+  CHECK(spec.surfaces.at("rough_film")->find("model")->text == "thin_film");
+  CHECK(spec.surfaces.at("rough_film")->find("thin_film")->find("sigma_alpha"));
+  CHECK(spec.surfaces.at("smeared_film")->find("thin_film")->find("polish"));
   CHECK(draft_text(text).find("has no counterpart here") == std::string::npos);
   CHECK_NOTHROW(scene::SceneBuilder().build(spec));
 }

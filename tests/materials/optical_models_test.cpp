@@ -4,6 +4,7 @@
 #include "scintray/materials/surface_factory.hpp"
 #include "scintray/materials/table_key.hpp"
 #include "scintray/optics/coherent_layers.hpp"
+#include "scintray/optics/wave_scatter.hpp"
 #include "support/agreement.hpp"
 
 using namespace scintray;
@@ -41,6 +42,46 @@ TEST_CASE("a thin film is a list of layers from the inside, with extinction wher
   CHECK(reports(wrong("{ index = 2, extinction = -1, thickness = \"2 nm\" }"), 2, "imaginary part"));
   CHECK(reports(own_surface_problems("model = \"thin_film\"\nthin_film = { layers = [] }\n"), 0,
                 "1 to 200 layers"));
+}
+
+TEST_CASE("a face with films is smooth, or has facets of a width or of a polish") {
+  const auto film = [](const std::string& roughness) {
+    return kFilm + "{ index = 2.1, thickness = \"0.08 um\" }]" + roughness + " }\n";
+  };
+  CHECK(microsurface_of<ThinFilmSurface>(own_surface(film(""))).reciprocal());
+  const std::string unified =
+      ", sigma_alpha = \"12 deg\", definition = \"solid_angle\", facets = \"geant4\", lobe = 1.0";
+  CHECK_FALSE(microsurface_of<ThinFilmSurface>(own_surface(film(unified))).reciprocal());
+  CHECK_FALSE(microsurface_of<ThinFilmSurface>(own_surface(film(", polish = 0.8, facets = \"geant4\"")))
+                  .reciprocal());
+  CHECK(reports(own_surface_problems(film(unified + ", polish = 0.8")), 2,
+                "a face with films has both \"sigma_alpha\" and \"polish\""));
+}
+
+TEST_CASE("wave scattering has one spectrum of heights, and is refused where it would scatter much light") {
+  const auto text = [](const std::string& spectrum) {
+    return "model = \"wave_scatter\"\nwave_scatter = { " + spectrum + " }\n";
+  };
+  CHECK(reports(own_surface_problems(text("")), 2, "gaussian"));
+  CHECK(reports(own_surface_problems(text("gaussian = { rms_height = \"2 nm\" }")), 2,
+                "no \"correlation_length\""));
+  CHECK(reports(own_surface_problems(
+                    text("k_correlation = { rms_height = \"2 nm\", knee_length = \"3 um\", exponent = 1 }")),
+                2, "expected above 1"));
+  Medium crystal, air;
+  crystal.index = Curve::constant(1.82);
+  air.index = Curve::constant(1.0);
+  const auto make = [&](const std::string& rms_height) {
+    SurfaceFactory factory{SurfaceFactory::Hooks{}};
+    return factory.make(own_surface(text("gaussian = { rms_height = \"" + rms_height +
+                                         "\", correlation_length = \"0.3 um\" }")),
+                        crystal, air, 420.0, 400.0, 500.0);
+  };
+  const auto* face = make("3 nm").surface.microsurface.get_if<WaveScatterSurface>();
+  REQUIRE(face);
+  CHECK(face->most_scattered() > 0.001);
+  CHECK(face->most_scattered() < 0.05);
+  CHECK(reports(problems_of([&] { make("40 nm"); }), 2, "would scatter"));
 }
 
 TEST_CASE(

@@ -7,6 +7,7 @@
 #include "scintray/optics/coherent_layers.hpp"
 #include "scintray/optics/facets.hpp"
 #include "scintray/optics/surface.hpp"
+#include "scintray/optics/wave_scatter.hpp"
 #include "scintray/topography/build_table.hpp"
 #include "scintray/topography/synthesis.hpp"
 #include "support/evidence.hpp"
@@ -59,6 +60,11 @@ std::shared_ptr<const SurfaceTable> ground_table() {
   return table;
 }
 
+/// A face that scatters some per cent of the light, by perturbation theory.
+WaveScatterSurface nearly_smooth() {
+  return {std::make_shared<GaussianSpectrum>(8.0, 150.0), {{420.0, kIndex.inside, kIndex.outside}}};
+}
+
 struct BothWays {
   std::uint64_t reflected = 0, transmitted = 0, absorbed = 0;
   std::vector<std::uint64_t> reflected_bins, transmitted_bins;  ///< even in sin^2 theta
@@ -109,7 +115,8 @@ std::vector<Named> lossless_surfaces() {
           {"air film to a medium of n 1",
            with(ThinFilmSurface({{Curve::constant(1.1), Curve::constant(0.0), 150.0}}))},
           {"height map on the spot", with(ground_map())},
-          {"table of the height map", with(ground_table())}};
+          {"table of the height map", with(ground_table())},
+          {"wave scattering, heights of 8 nm", with(nearly_smooth())}};
 }
 
 /// A sheet that absorbs nothing.

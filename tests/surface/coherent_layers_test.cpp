@@ -324,3 +324,39 @@ TEST_CASE(
   surface.admission = Admission{Curve::constant(0.0)};
   CHECK(surface.opaque());
 }
+
+TEST_CASE("Films: facets with a film of the index behind are facets without films") {
+  FacetSurface unified;
+  unified.sigma_alpha_rad = 18.0 * kDegree;
+  unified.lobe = 0.7;
+  unified.backscatter = 0.1;
+  FacetSurface smeared;
+  smeared.smear = 0.3;
+  smeared.sampling = FacetSampling::geant4;
+  const IndexPair index{1.82, 1.4};
+  for (const FacetSurface& facets : {unified, smeared}) {
+    const ThinFilmSurface films({{Curve::constant(1.4), Curve::constant(0.0), 80.0}}, {}, facets);
+    CHECK_FALSE(films.reciprocal());
+    for (const Side side : {Side::inside, Side::outside})
+      for (const double angle : {0.3, 0.8, 1.2}) {
+        CAPTURE(angle);
+        Moments crossed, cosine, along;  // of a film less those without: the same rays, other random numbers
+        for (std::uint64_t i = 0; i < 20'000; ++i) {
+          Ray ray = from_inside(angle, -1.0);
+          if (side == Side::outside) ray.direction = -ray.direction;
+          const Vec3 before = ray.direction;
+          Ray bare = ray;
+          Rng rng(8, StreamKind::other, i), other_rng(9, StreamKind::other, i);
+          SurfaceInteraction at{kFace, Vec3::Zero(), kFilmNm, rng};
+          const SurfaceOutcome outcome = films.scatter(ray, side, index, at);
+          const Side bare_side = facets.scatter(bare, side, kFace, index, other_rng);
+          REQUIRE((outcome == SurfaceOutcome::inside) == (ray.direction.dot(kFace) < 0.0));
+          crossed.add((outcome != outcome_on(side) ? 1.0 : 0.0) - (bare_side != side ? 1.0 : 0.0));
+          cosine.add(std::abs(ray.direction.dot(kFace)) - std::abs(bare.direction.dot(kFace)));
+          along.add(ray.direction.dot(before) - bare.direction.dot(before));
+        }
+        for (const Moments* difference : {&crossed, &cosine, &along})
+          CHECK(sigmas(difference->mean(), {0.0, 0.0}) < kSigmas);
+      }
+  }
+}

@@ -12,6 +12,7 @@ namespace scintray::materials {
   ADD(thin_film)                     \
   ADD(metal)                         \
   ADD(slightly_rough)                \
+  ADD(wave_scatter)                  \
   ADD(angular)                       \
   ADD(table)                         \
   ADD(geant4_table)                  \

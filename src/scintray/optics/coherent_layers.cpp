@@ -78,17 +78,14 @@ void polarise(Ray& ray, const Components& before, const Leaving& out, core::Rng&
                with_phase_of(out.p, out.power_p) * before.field.p});
     return;
   }
-  const double size = std::abs(out.s) * std::abs(out.p);
-  const double in_phase = size > 0.0 ? (out.p * std::conj(out.s)).real() / size : 1.0;
-  const double sign = rng.uniform() < 0.5 * (1.0 + in_phase) ? 1.0 : -1.0;
+  const double sign = draw_sign(out.s, out.p, rng);
   const double out_s = std::sqrt(std::max(0.0, out.power_s)) * before.field.s.real();
   const double out_p = sign * std::sqrt(std::max(0.0, out.power_p)) * before.field.p.real();
   ray.polarisation = (out_s * before.s + out_p * before.s.cross(ray.direction.vec())).normalized();
 }
 
-enum class FilmOutcome { reflected, transmitted, absorbed };
+}  // namespace
 
-/// Interaction of a ray with films at a facet of normal `m` against it, from index n1 to n2.
 FilmOutcome interact_at_films(Ray& ray, const core::Vec3& m, const FilmResponse& film, double n1, double n2,
                               core::Rng& rng) {
   const double cos_i = std::clamp(-ray.direction.dot(m), 0.0, 1.0);
@@ -118,8 +115,6 @@ FilmOutcome interact_at_films(Ray& ray, const core::Vec3& m, const FilmResponse&
   if (parts) polarise(ray, *parts, {film.t_s, film.t_p, film.transmittance_s, film.transmittance_p}, rng);
   return FilmOutcome::transmitted;
 }
-
-}  // namespace
 
 FilmResponse film_response(double cos_i, double n1, std::span<const Film> films, std::complex<double> n2,
                            double wavelength_nm) {
@@ -152,33 +147,46 @@ FilmResponse film_response(double cos_i, double n1, std::span<const Film> films,
   return response;
 }
 
-SurfaceOutcome ThinFilmSurface::scatter(Ray& ray, Side side, const IndexPair& index,
-                                        SurfaceInteraction& interaction) const {
-  const core::Vec3 against = side == Side::inside ? core::Vec3(-interaction.normal) : interaction.normal;
+FilmOutcome ThinFilmSurface::interact(Ray& ray, Side side, const core::Vec3& facet, const IndexPair& index,
+                                      SurfaceInteraction& interaction) const {
   const double nm = interaction.wavelength_nm;
   std::vector<Film> films;
   for (const CoatingLayer& layer : layers_)
     films.push_back({{layer.index(nm), layer.extinction(nm)}, layer.thickness_nm});
   if (side == Side::outside) std::reverse(films.begin(), films.end());
   const double n1 = index.on(side), n2 = index.on(other(side));
-  const double cos_i = std::clamp(-ray.direction.dot(against), 0.0, 1.0);
+  const double cos_i = std::clamp(-ray.direction.dot(facet), 0.0, 1.0);
   const double tangential = n1 * std::sqrt(1.0 - cos_i * cos_i);
   if (!options_.frustrated && std::any_of(films.begin(), films.end(), [&](const Film& film) {
         return film.index.imag() == 0.0 && tangential >= film.index.real();
       })) {
-    reflect(ray, against);
-    return outcome_on(side);
+    reflect(ray, facet);
+    return FilmOutcome::reflected;
   }
-  const FilmResponse response = film_response(cos_i, n1, films, n2, nm);
-  switch (interact_at_films(ray, against, response, n1, n2, interaction.rng)) {
-    case FilmOutcome::reflected:
-      return outcome_on(side);
-    case FilmOutcome::transmitted:
-      return options_.transmits ? outcome_on(other(side)) : SurfaceOutcome::absorbed;
-    case FilmOutcome::absorbed:
-      break;
+  return interact_at_films(ray, facet, film_response(cos_i, n1, films, n2, nm), n1, n2, interaction.rng);
+}
+
+SurfaceOutcome ThinFilmSurface::scatter(Ray& ray, Side side, const IndexPair& index,
+                                        SurfaceInteraction& interaction) const {
+  core::Rng& rng = interaction.rng;
+  for (;;) {
+    const core::Vec3 against = side == Side::inside ? core::Vec3(-interaction.normal) : interaction.normal;
+    const core::Vec3 facet = facets_.sample_facet(ray.direction, core::Frame::about(against), rng);
+    const Ray before = ray;
+    switch (interact(ray, side, facet, index, interaction)) {
+      case FilmOutcome::reflected:
+        FacetSurface::apply_lobe(facets_.sample_lobe(rng), ray, before, against, rng);
+        break;
+      case FilmOutcome::transmitted:
+        if (!options_.transmits) return SurfaceOutcome::absorbed;
+        side = other(side);
+        break;
+      case FilmOutcome::absorbed:
+        return SurfaceOutcome::absorbed;
+    }
+    const double outward = ray.direction.dot(interaction.normal);
+    if (side == Side::inside ? outward < 0.0 : outward > 0.0) return outcome_on(side);
   }
-  return SurfaceOutcome::absorbed;
 }
 
 SurfaceOutcome MetalSurface::scatter(Ray& ray, Side side, const IndexPair& index,

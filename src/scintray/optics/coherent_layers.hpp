@@ -45,13 +45,22 @@ struct FilmResponse {
 FilmResponse film_response(double cos_i, double n1, std::span<const Film> films, std::complex<double> n2,
                            double wavelength_nm);
 
+enum class FilmOutcome { reflected, transmitted, absorbed };
+
+/// Interaction of a ray with a face that has a response, at a facet of unit normal `m` against the ray, from
+/// index n1 to n2; what is neither reflected nor transmitted is absorbed, and leaves the ray as it was.
+FilmOutcome interact_at_films(Ray& ray, const core::Vec3& m, const FilmResponse& film, double n1, double n2,
+                              core::Rng& rng);
+
 /// A film of a surface: n and k against wavelength (nm).
 struct CoatingLayer {
   core::Curve index, extinction = core::Curve::constant(0.0);
   double thickness_nm = 0.0;
 };
 
-/// A smooth face with thin films, from the inside to the outside, which interfere. A polarised photon that
+/// A face with thin films, from the inside to the outside, which interfere; smooth, or of facets that the
+/// films follow, as Geant4's type `coated` has it: what a facet sends into the surface interacts with another
+/// facet. A polarised photon that
 /// does not keep phases has one linear polarisation: of the phase between s and p only the linear part is
 /// kept, drawn so that the mean over photons of the first three Stokes parameters is exact; what a retarding
 /// film makes circular is not carried.
@@ -65,18 +74,23 @@ class ThinFilmSurface : public MicrosurfaceModel {
     bool operator==(const Options&) const = default;
   };
   explicit ThinFilmSurface(std::vector<CoatingLayer> layers) : layers_(std::move(layers)) {}
-  ThinFilmSurface(std::vector<CoatingLayer> layers, const Options& options)
-      : layers_(std::move(layers)), options_(options) {}
+  ThinFilmSurface(std::vector<CoatingLayer> layers, const Options& options, FacetSurface facets = {})
+      : layers_(std::move(layers)), options_(options), facets_(std::move(facets)) {}
   const Options& options() const { return options_; }
   bool opaque() const override { return !options_.transmits; }
   const std::vector<CoatingLayer>& layers() const { return layers_; }
   SurfaceOutcome scatter(Ray& ray, Side side, const IndexPair& index,
                          SurfaceInteraction& interaction) const override;
-  bool reciprocal() const override { return true; }
+  bool reciprocal() const override { return facets_.sigma_alpha_rad == 0.0 && facets_.smear == 0.0; }
 
  private:
+  /// Interaction with the films on a facet of a normal against the ray.
+  FilmOutcome interact(Ray& ray, Side side, const core::Vec3& facet, const IndexPair& index,
+                       SurfaceInteraction& interaction) const;
+
   std::vector<CoatingLayer> layers_;  ///< from the inside to the outside
   Options options_;
+  FacetSurface facets_;  ///< smooth unless they have a width
 };
 
 /// Complex index of a metal against wavelength (nm).

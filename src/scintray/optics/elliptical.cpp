@@ -60,6 +60,12 @@ bool project_field(Ray& ray, const core::Vec3& direction) {
   return true;
 }
 
+double draw_sign(const std::complex<double>& s, const std::complex<double>& p, core::Rng& rng) {
+  const double size = std::abs(s) * std::abs(p);
+  const double in_phase = size > 0.0 ? (p * std::conj(s)).real() / size : 1.0;
+  return rng.uniform() < 0.5 * (1.0 + in_phase) ? 1.0 : -1.0;
+}
+
 double power_across(const Ray& ray, const core::Vec3& direction) {
   const SpaceField field = space_field(ray);
   return 1.0 - std::norm(Complex(field.real.dot(direction), field.imaginary.dot(direction)));

@@ -30,6 +30,10 @@ void set_field(Ray& ray, const core::Vec3& s, const FieldComponents& field);
 /// radiates, or a scatterer keeps. @return false, with the ray unchanged, when less than 1e-9 is left of it
 bool project_field(Ray& ray, const core::Vec3& direction);
 
+/// Sign between two components of a field for light that has one linear polarisation, 1 or -1: drawn so that
+/// its mean is the cosine of their phase, which makes the mean of the first three Stokes parameters exact.
+double draw_sign(const std::complex<double>& s, const std::complex<double>& p, core::Rng& rng);
+
 /// Share of the power whose field is not along a unit vector: the pattern of a dipole that the ray drives.
 double power_across(const Ray& ray, const core::Vec3& direction);
 

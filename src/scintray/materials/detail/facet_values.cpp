@@ -36,6 +36,24 @@ optics::FacetSurface read_facets(const config::TomlTable& table) {
   return surface;
 }
 
+optics::FacetSurface read_roughness(const config::TomlTable& table, const char* what) {
+  optics::FacetSurface facets;
+  const bool rough = table.has("sigma_alpha"), smeared = table.has("polish");
+  if (!rough && !smeared) {
+    for (const char* key : {"definition", "facets", "lobe", "spike", "backscatter"}) table.has(key);
+    return facets;
+  }
+  if (rough) {
+    facets = read_facets(table);
+  } else {
+    facets.sampling = read_facet_sampling(table);
+  }
+  if (smeared) facets.smear = 1.0 - read_share(table, "polish", std::nullopt);
+  table.expect("polish", !rough, std::string(what) + " has both \"sigma_alpha\" and \"polish\"",
+               "keep one of them");
+  return facets;
+}
+
 std::string text_of(const optics::FacetSurface& facets) {
   return fmt::format("{} rad, {}, {}, lobe {}, spike {}, backscatter {}", facets.sigma_alpha_rad,
                      core::word_of(kDefinitions, facets.definition), core::word_of(kFacets, facets.sampling),

@@ -36,6 +36,12 @@ std::optional<double> read_optional_um(const config::TomlTable& table, const std
   return *length_mm * 1e3;
 }
 
+void report_of_file(const config::TomlTable& table, const std::string& key, const core::InputError& error) {
+  for (const core::Problem& problem : error.problems())
+    table.report(key, problem.where.file.empty() ? problem.what : problem.where.text() + ": " + problem.what,
+                 problem.hint);
+}
+
 double read_um(const config::TomlTable& table, const std::string& key, double fallback_um,
                bool zero_allowed) {
   const std::optional<double> length_mm = table.optional_quantity(key, core::Dimension::length);

@@ -14,6 +14,9 @@ namespace scintray::materials {
 double read_um(const config::TomlTable& table, const std::string& key, double fallback_um, bool zero_allowed);
 std::optional<double> read_optional_um(const config::TomlTable& table, const std::string& key);
 
+/// Reports the problems of a file that a key names, at the key, with their places in the file.
+void report_of_file(const config::TomlTable& table, const std::string& key, const core::InputError& error);
+
 /// A share, from 0 to 1; required when there is no fallback.
 double read_share(const config::TomlTable& table, const std::string& key, std::optional<double> fallback);
 
@@ -23,6 +26,9 @@ optics::FacetSampling read_facet_sampling(const config::TomlTable& table);
 /// The keys `sigma_alpha`, `definition`, `facets`, `lobe`, `spike` and `backscatter` of a table: width of the
 /// facets' angles and shares of the lobes.
 optics::FacetSurface read_facets(const config::TomlTable& table);
+/// Roughness of a face that may be smooth, `what`: `sigma_alpha` with the shares of the lobes, or `polish`
+/// with `facets`; smooth without either.
+optics::FacetSurface read_roughness(const config::TomlTable& table, const char* what);
 /// These values, for the key of a table of the surface.
 std::string text_of(const optics::FacetSurface& facets);
 

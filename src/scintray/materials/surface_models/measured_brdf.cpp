@@ -100,8 +100,7 @@ MicrosurfaceSpec read_measured_brdf(const config::TomlTable& surface) {
         MeasuredBrdfSurface(std::make_shared<const tables::MeasuredBrdf>(std::move(brdf)), gap_index),
         std::move(key), {std::move(cover)});
   } catch (const core::InputError& error) {
-    for (const core::Problem& problem : error.problems())
-      table.report("file", problem.where.text() + ": " + problem.what, problem.hint);
+    report_of_file(table, "file", error);
     return FixedMicrosurface(optics::SmoothSurface());
   }
 }

@@ -16,24 +16,6 @@ core::Curve read_part(const config::TomlTable& table, const std::string& key) {
   return curve;
 }
 
-/// `sigma_alpha` with the shares of the lobes, or `polish`; a smooth face without either.
-optics::FacetSurface read_roughness(const config::TomlTable& table) {
-  optics::FacetSurface facets;
-  const bool rough = table.has("sigma_alpha"), smeared = table.has("polish");
-  if (!rough && !smeared) {
-    for (const char* key : {"definition", "facets", "lobe", "spike", "backscatter"}) table.has(key);
-    return facets;
-  }
-  if (rough) {
-    facets = read_facets(table);
-  } else {
-    facets.sampling = read_facet_sampling(table);
-  }
-  if (smeared) facets.smear = 1.0 - read_share(table, "polish", std::nullopt);
-  table.expect("polish", !rough, "a metal has both \"sigma_alpha\" and \"polish\"", "keep one of them");
-  return facets;
-}
-
 }  // namespace
 
 SurfaceModel metal_model() {
@@ -42,7 +24,7 @@ SurfaceModel metal_model() {
     optics::MetalSurface metal;
     if (table.has("n") || table.has("k"))
       metal.metal = optics::MetalIndex{read_part(table, "n"), read_part(table, "k")};
-    metal.facets = read_roughness(table);
+    metal.facets = read_roughness(table, "a metal");
     std::vector<WavelengthTable> curves;
     if (metal.metal)
       curves = {{metal.metal->n, "real parts of its index", table.where("n")},

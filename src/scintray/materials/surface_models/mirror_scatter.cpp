@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 
+#include "scintray/materials/detail/height_spectrum_form.hpp"
 #include "scintray/materials/detail/surface_values.hpp"
 #include "scintray/materials/surface_models.hpp"
 #include "scintray/optics/opaque_face.hpp"
@@ -127,24 +128,18 @@ class GaussianLaw : public ScatterLaw {
 /// from the integral.
 class KCorrelationLaw : public ScatterLaw {
  public:
-  KCorrelationLaw(double rms_nm, double knee_nm, double exponent)
-      : rms_nm_(rms_nm), knee_nm_(knee_nm), exponent_(exponent) {}
+  explicit KCorrelationLaw(std::shared_ptr<const optics::HeightSpectrum> spectrum)
+      : spectrum_(std::move(spectrum)) {}
   double total(double waves_nm) const override {
-    return std::pow(4.0 * core::kPi * rms_nm_ / waves_nm, 2) * band(waves_nm);
+    return std::pow(4.0 * core::kPi / waves_nm, 2) * spectrum_->variance_nm2(kFarthest / waves_nm);
   }
   double distance(double u, double waves_nm) const override {
-    const double rest = 1.0 - u * band(waves_nm);
-    const double bf2 = std::expm1(std::log(rest) * 2.0 / (1.0 - exponent_));
-    return std::min(kFarthest, std::sqrt(bf2) * waves_nm / knee_nm_);
+    return waves_nm * spectrum_->frequency_per_nm(u, kFarthest / waves_nm);
   }
   bool oblique() const override { return true; }
 
  private:
-  /// Share of the squared height in spatial frequencies up to 2 / w.
-  double band(double waves_nm) const {
-    return -std::expm1(0.5 * (1.0 - exponent_) * std::log1p(std::pow(kFarthest * knee_nm_ / waves_nm, 2)));
-  }
-  double rms_nm_, knee_nm_, exponent_;
+  std::shared_ptr<const optics::HeightSpectrum> spectrum_;
 };
 
 /// A mirror of a reflectance of which some light is scattered by a law; the rest of the reflectance is
@@ -264,17 +259,8 @@ std::shared_ptr<const ScatterLaw> read_gaussian(const config::TomlTable& table) 
 }
 
 std::shared_ptr<const ScatterLaw> read_k_correlation(const config::TomlTable& table) {
-  constexpr double kNmPerUm = 1e3;
-  const double rms_um = read_um(table, "rms_height", 0.0, false),
-               knee_um = read_um(table, "knee_length", 0.0, false);
-  for (const char* key : {"rms_height", "knee_length"})
-    if (!table.has(key))
-      table.report(key, fmt::format("the K-correlation law has no \"{}\"", key),
-                   "write a length, as \"1 nm\"");
-  const double exponent = table.number("exponent");
-  table.expect("exponent", exponent > 1.0, fmt::format("\"exponent\" is {:g}; expected above 1", exponent));
-  if (!table.good("rms_height") || !table.good("knee_length") || !table.good("exponent")) return nullptr;
-  return std::make_shared<KCorrelationLaw>(rms_um * kNmPerUm, knee_um * kNmPerUm, exponent);
+  const std::optional<HeightSpectrumSpec> spectrum = read_k_correlation_spectrum(table);
+  return spectrum ? std::make_shared<KCorrelationLaw>(spectrum->spectrum) : nullptr;
 }
 
 constexpr core::Word<LawReader> kScatterLaws[] = {{"abg", read_abg},

@@ -81,10 +81,7 @@ void read_spectrum(const config::TomlTable& table, topography::SpectrumRelief& s
   try {
     spectrum = read_power_spectrum(file, frequency, density, table.where("spectrum"));
   } catch (const core::InputError& error) {
-    for (const core::Problem& problem : error.problems())
-      table.report("spectrum",
-                   problem.where.file.empty() ? problem.what : problem.where.text() + ": " + problem.what,
-                   problem.hint);
+    report_of_file(table, "spectrum", error);
   }
 }
 

@@ -51,8 +51,9 @@ SurfaceModel thin_film_model() {
     optics::ThinFilmSurface::Options options;
     options.frustrated = table.boolean("frustrated_transmission", true);
     options.transmits = table.boolean("transmits", true);
-    return FixedMicrosurface(optics::ThinFilmSurface(std::move(layers), options), std::nullopt,
-                             std::move(curves));
+    return FixedMicrosurface(
+        optics::ThinFilmSurface(std::move(layers), options, read_roughness(table, "a face with films")),
+        std::nullopt, std::move(curves));
   };
   return {.word = "thin_film", .table = "thin_film", .read = read};
 }

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "scintray/exchange/gdml/detail/xml_entities.hpp"
 #include "scintray/exchange/gdml/detail/xml_text.hpp"
 #include "scintray/mesh/import/file_checks.hpp"
 

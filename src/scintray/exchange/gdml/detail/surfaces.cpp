@@ -279,7 +279,13 @@ class SurfaceImporter {
       if (least(table("EFFICIENCY")) <= 0.0)
         note("its EFFICIENCY is 0 at some energies: Geant4 transmits light there, which is absorbed here");
     }
-    if (finish_ != kFinishes[0]) note("its finish " + finish_ + ", the facets of a coated face: smooth");
+    // Facets of any finish but polished, without lobes.
+    if (finish_ != kFinishes[0] && smeared())
+      options += fmt::format(", polish = {:.9g}, facets = \"geant4\"", roughness());
+    if (finish_ != kFinishes[0] && unified())
+      options += fmt::format(
+          ", sigma_alpha = \"{:.9g} rad\", definition = \"solid_angle\", facets = \"geant4\", lobe = 1.0",
+          roughness());
     result_.toml = "model = \"thin_film\"\nthin_film = { layers = [{ index = " + curve(index) +
                    fmt::format(", thickness = \"{:.9g} mm\" }}]", *thickness_mm) + options + " }\n";
   }

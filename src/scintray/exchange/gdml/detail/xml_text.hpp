@@ -3,35 +3,24 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <functional>
-#include <map>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "scintray/core/error.hpp"
 
 namespace scintray::exchange::gdml {
 
-/// Path of a file that another names: relative to the folder of the file that names it, else to `root`, the
-/// folder of the first file, in which Geant4 is started as a rule. Throws InputError at `where` when it is
-/// not in `root` or below, links resolved, or is no regular file: a file from elsewhere may name any file of
-/// its reader, a pipe or a device.
-std::filesystem::path included_file(const std::string& name, const std::filesystem::path& folder,
-                                    const std::filesystem::path& root, const core::FileLocation& where);
-
 /// A document as an XML processor passes it on (Extensible Markup Language 1.0, 5th edition, section 4.4):
 /// references to entities that its DOCTYPE declares, <!ENTITY name "text"> or <!ENTITY name SYSTEM "file">,
-/// are replaced by their text, also within each other. Of several declarations of one name the first counts.
+/// are replaced by their text, also within each other; declarations may be in files of their own, of
+/// parameter entities. Of several declarations of one name the first counts.
 class XmlText {
  public:
   /// @param content  of `file`, without entities returned as it is
   /// @param root     folder in which, or below which, the files of entities have to be
   /// Throws InputError, with file and line, for entities that are not declared, contain themselves, are
   /// external within an attribute, or together become more than 8 MiB and 100 times the text that is read
-  /// (the limit of libexpat 2.4, which guards against the same); for parameter entities; and as
-  /// included_file.
+  /// (the limit of libexpat 2.4, which guards against the same); and as XmlDeclarations.
   XmlText(std::string content, const std::string& file, const std::filesystem::path& root);
 
   const std::string& text() const { return text_; }
@@ -41,10 +30,6 @@ class XmlText {
 
  private:
   class Expansion;
-  struct Entity;
-  using Entities = std::map<std::string, Entity, std::less<>>;
-  static std::optional<Entity> entity_of(const std::vector<std::string>& words);
-  static Entities declared_entities(std::string_view text, const std::string& file);
   struct Source {
     std::string file;
     std::vector<std::size_t> line_starts;
