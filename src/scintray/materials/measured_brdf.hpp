@@ -4,13 +4,13 @@
 #include <memory>
 
 #include "scintray/optics/opaque_face.hpp"
-#include "scintray/tables/brdf_table.hpp"
+#include "scintray/tables/mueller_table.hpp"
 
 namespace scintray::materials {
 
 /// Reflects by a table of a BRDF; the rest is absorbed. Between two wavelengths one of the tables is drawn
-/// with the weights of linear interpolation. The light is unpolarised: a polarised ray has a new
-/// polarisation.
+/// with the weights of linear interpolation. A polarised ray is reflected by the table's Mueller matrices,
+/// into a pure state drawn for the partly polarised light; without matrices it has a new polarisation.
 class MeasuredBrdfSurface : public optics::OpaqueFace {
  public:
   /// @param gap_index  as of OpaqueFace

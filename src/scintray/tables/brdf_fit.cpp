@@ -1,7 +1,4 @@
 // The reciprocal table next to measured values of a BRDF.
-#include <Eigen/SparseCholesky>
-#include <Eigen/SparseCore>
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +8,8 @@
 
 #include "scintray/core/vec.hpp"
 #include "scintray/tables/brdf_table.hpp"
+#include "scintray/tables/detail/least_squares.hpp"
+#include "scintray/tables/mueller_table.hpp"
 
 namespace scintray::tables {
 
@@ -44,39 +43,6 @@ class UnknownNodes {
   std::vector<int> numbers_ = std::vector<int>(kBrdfPolar * kBrdfPolar * kBrdfTurns, 0);
   int count_ = 0;
 };
-
-/// Rows of a linear least squares problem.
-class LeastSquares {
- public:
-  explicit LeastSquares(int unknowns)
-      : matrix_(unknowns, unknowns), right_(Eigen::VectorXd::Zero(unknowns)) {}
-
-  using Row = std::vector<std::pair<int, double>>;
-  void add(const Row& row, double value) {
-    for (const auto& [i, at_i] : row) {
-      right_[i] += at_i * value;
-      for (const auto& [j, at_j] : row) entries_.emplace_back(i, j, at_i * at_j);
-    }
-  }
-  Eigen::VectorXd solve() {
-    matrix_.setFromTriplets(entries_.begin(), entries_.end());
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(matrix_);
-    return factors.solve(right_);
-  }
-
- private:
-  std::vector<Eigen::Triplet<double>> entries_;
-  Eigen::SparseMatrix<double> matrix_;
-  Eigen::VectorXd right_;
-};
-
-/// Weights of the two nodes about a place on a rising grid.
-template <typename Node>
-std::pair<int, double> grid_place(double at, int nodes, const Node& node) {
-  int low = 0;
-  while (low + 2 < nodes && at >= node(low + 1)) ++low;
-  return {low, std::clamp((at - node(low)) / (node(low + 1) - node(low)), 0.0, 1.0)};
-}
 
 void add_points(LeastSquares& problem, const UnknownNodes& number, const std::vector<BrdfPoint>& points,
                 double mean) {
@@ -186,6 +152,10 @@ MeasuredBrdf fit_brdf(const std::vector<BrdfPoint>& points, const std::string& f
           "lobe as a mirror or by model = \"mirror_scatter\"");
     brdf.wavelengths_nm.push_back(nm);
   }
+  if (std::all_of(points.begin(), points.end(),
+                  [](const BrdfPoint& point) { return point.mueller.has_value(); }))
+    for (std::size_t k = 0; k < brdf.tables.size(); ++k)
+      brdf.mueller.push_back(MuellerTable::fitted(by_wavelength[brdf.wavelengths_nm[k]], brdf.tables[k]));
   return brdf;
 }
 

@@ -63,14 +63,27 @@ double BrdfTable::polar_node(int node) {
 
 double BrdfTable::turn_node(int node) { return node * kTurnStep_rad; }
 
-double BrdfTable::value_per_sr(double x_in, double x_out, double turn_rad) const {
+std::array<BrdfTable::Corner, 8> BrdfTable::corners(double x_in, double x_out, double turn_rad) {
   const BrdfCell in = polar_cell(x_in), out = polar_cell(x_out), turn = turn_cell(turn_rad);
-  double sum = 0.0;
+  std::array<Corner, 8> corners;
   for (int corner = 0; corner < 8; ++corner) {
     const int i = corner & 1, j = corner >> 1 & 1, k = corner >> 2;
-    sum += (i ? in.share : 1.0 - in.share) * (j ? out.share : 1.0 - out.share) *
-           (k ? turn.share : 1.0 - turn.share) * at(in.low + i, out.low + j, turn.low + k);
+    corners[static_cast<std::size_t>(corner)] = {in.low + i, out.low + j, turn.low + k,
+                                                 (i ? in.share : 1.0 - in.share) *
+                                                     (j ? out.share : 1.0 - out.share) *
+                                                     (k ? turn.share : 1.0 - turn.share)};
   }
+  return corners;
+}
+
+double BrdfTable::node_integral(int b, int k) {
+  return hat_integral<polar_node>(b, kBrdfPolar) * hat_integral<turn_node>(k, kBrdfTurns);
+}
+
+double BrdfTable::value_per_sr(double x_in, double x_out, double turn_rad) const {
+  double sum = 0.0;
+  for (const Corner& corner : corners(x_in, x_out, turn_rad))
+    sum += corner.weight * at(corner.a, corner.b, corner.k);
   return sum;
 }
 
@@ -93,7 +106,7 @@ void BrdfTable::sum_rows() {
     double sum = 0.0;
     for (int b = 0; b < kBrdfPolar; ++b)
       for (int k = 0; k < kBrdfTurns; ++k) {
-        sum += at(a, b, k) * hat_integral<polar_node>(b, kBrdfPolar) * hat_integral<turn_node>(k, kBrdfTurns);
+        sum += at(a, b, k) * node_integral(b, k);
         sums_.push_back(sum);
       }
     reflectance_[static_cast<std::size_t>(a)] = sum;

@@ -2,6 +2,8 @@
 /// Measured BRDFs of isotropic surfaces, as a table that is exactly reciprocal and whose reflectance is at
 /// most 1.
 
+#include <Eigen/Core>
+
 #include <array>
 #include <cstddef>
 #include <filesystem>
@@ -23,6 +25,8 @@ struct BrdfPoint {
   double incidence_rad = 0.0, polar_rad = 0.0;  ///< of incident and reflected light, 0 to pi/2
   double turn_rad = 0.0;                        ///< azimuth between the two, 0 (forward) to pi
   double value_per_sr = 0.0;
+  /// Mueller matrix over its element (0, 0), as of MuellerTable, for an azimuth above 0.
+  std::optional<Eigen::Matrix4d> mueller = std::nullopt;
 };
 
 /// Deviations of a table from the measured values at one wavelength, relative to the measured value.
@@ -61,6 +65,18 @@ class BrdfTable {
     return table;
   }
 
+  /// Nodes around two directions, and their weights.
+  struct Corner {
+    int a, b, k;
+    double weight;
+  };
+  static std::array<Corner, 8> corners(double x_in, double x_out, double turn_rad);
+  /// Value at a node, and its share of the reflectance at an incidence: the integral over directions of the
+  /// function that is linear, 1 at the node and 0 at all others.
+  double node_value(int a, int b, int k) const { return at(a, b, k); }
+  static double node_integral(int b, int k);
+  double node_reflectance(int a) const { return reflectance_[static_cast<std::size_t>(a)]; }
+
   /// BRDF, 1/sr; x in [0, 1], turn in [0, pi].
   double value_per_sr(double x_in, double x_out, double turn_rad) const;
   /// Reflectance at an incidence, at most 1.
@@ -93,10 +109,13 @@ class BrdfTable {
   BrdfResiduals residuals_;
 };
 
+class MuellerTable;
+
 /// BRDFs at one or several wavelengths, in rising order.
 struct MeasuredBrdf {
   std::vector<double> wavelengths_nm;
   std::vector<BrdfTable> tables;
+  std::vector<MuellerTable> mueller;  ///< of the tables, where all points have matrices; else empty
 };
 
 /// The tables of points, one per wavelength; InputError, at `file`, as BrdfTable::fitted and where a table
