@@ -1,4 +1,4 @@
-#include "scintray/topography/fit_recipe.hpp"
+#include "scintray/topography/synthesis.hpp"
 
 #include <doctest/doctest.h>
 

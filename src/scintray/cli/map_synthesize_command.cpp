@@ -12,8 +12,8 @@
 #include "scintray/core/error.hpp"
 #include "scintray/core/units.hpp"
 #include "scintray/materials/power_spectrum.hpp"
-#include "scintray/topography/fit_recipe.hpp"
 #include "scintray/topography/map_statistics.hpp"
+#include "scintray/topography/synthesis.hpp"
 
 namespace scintray::cli {
 
