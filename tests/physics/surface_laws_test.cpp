@@ -159,7 +159,10 @@ std::vector<Named> facet_models() {
           {"UNIFIED 18 deg, facets by projected area", with(unified(18, FacetSampling::projected_area, 1.0))},
           {"UNIFIED 1.2 deg", with(unified(1.2, FacetSampling::projected_area, 1.0))},
           {"UNIFIED Lambertian", with(unified(18, FacetSampling::geant4, 0.0))},
-          {"GLISUR, polish 0.7", with(glisur(0.7))}};
+          {"GLISUR, polish 0.7", with(glisur(0.7))},
+          {"thin films on facets of UNIFIED 18 deg",
+           with(ThinFilmSurface({{Curve::constant(1.38), Curve::constant(0.0), 76.0}}, {},
+                                unified(18, FacetSampling::projected_area, 1.0)))}};
 }
 
 /// Chi-square that isotropic light on both sides leaves the inside as isotropic light: what comes back

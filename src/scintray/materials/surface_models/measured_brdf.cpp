@@ -191,11 +191,14 @@ std::vector<tables::BrdfPoint> read_mueller_csv(const std::filesystem::path& pat
   return points;
 }
 
-/// Values of a file of either format, by the ending of its name.
+}  // namespace
+
 std::vector<tables::BrdfPoint> read_brdf_points(const std::filesystem::path& path) {
   if (!core::same_but_case(path.extension().string(), ".bsdf")) return read_mueller_csv(path);
   return tables::brdf_points(tables::parse_bsdf(config::read_text_file(path), path.string()));
 }
+
+namespace {
 
 MicrosurfaceSpec read_measured_brdf(const config::TomlTable& surface) {
   const config::TomlTable table = surface.table("measured_brdf");
