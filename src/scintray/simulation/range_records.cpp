@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "scintray/core/zlib_stream.hpp"
+#include "scintray/simulation/detail/photon_rows.hpp"
 #include "scintray/simulation/detail/range_stream.hpp"
 
 namespace scintray::simulation::detail {
