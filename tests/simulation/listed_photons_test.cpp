@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ranks_in_threads.hpp"
 #include "scenes.hpp"
 #include "scintray/core/h5.hpp"
 #include "scintray/simulation/analyze_results.hpp"
@@ -127,12 +128,13 @@ TEST_CASE("A list of some channels has their photons alone, and no other result 
   check_contains(unknown, "did you mean \"far\"?");
 }
 
-TEST_CASE("Shards of a run with a sampled list of some columns make the same file") {
+TEST_CASE("Shards, ranks and a resumed run with a list of some columns make the same file") {
   const auto folder = scratch_folder("photon_list_shards");
   const std::string scene =
-      two_ends() + kPhotons +
-      listed("photon_sample = 3\nphoton_columns = [\"x_mm\"]\nphoton_channels = \"pmt\"\n");
-  ResultsFile one(folder / "one.h5"), merged(folder / "merged.h5");
+      two_ends() + kPhotons + kSurfaceSweep +
+      listed("photon_sample = 3\nphoton_columns = [\"x_mm\", \"face\"]\nphoton_channels = \"pmt\"\n");
+  ResultsFile one(folder / "one.h5"), merged(folder / "merged.h5"), ranks(folder / "ranks.h5"),
+      stopped(folder / "stopped.h5"), resumed(folder / "resumed.h5");
   Simulation(scene_of(scene)).run_all(one);
   std::vector<std::filesystem::path> parts;
   for (const std::uint64_t number : {2, 1, 3}) {
@@ -142,6 +144,21 @@ TEST_CASE("Shards of a run with a sampled list of some columns make the same fil
   }
   merge_ranges(parts, merged);
   check_same_results(folder / "one.h5", folder / "merged.h5");
+  run_ranks(
+      2, [&](int) { return Simulation(scene_of(scene)); }, ranks);
+  check_same_results(folder / "one.h5", folder / "ranks.h5");
+  const CheckpointSettings settings{folder / "checkpoints", std::chrono::milliseconds(0), Resume::resume};
+  for (const bool again : {false, true}) {
+    Checkpoints checkpoints(settings);
+    std::atomic<bool> stop{false};
+    SimulationHooks hooks;
+    hooks.checkpoints = &checkpoints;
+    if (!again) hooks.stop = &stop;
+    hooks.progress = [&](const SimulationProgress& progress) { stop = stop || progress.done > 0; };
+    Simulation(scene_of(scene)).run_all(again ? resumed : stopped, hooks);
+  }
+  CHECK_FALSE(results::read_results(folder / "stopped.h5").complete());
+  check_same_results(folder / "one.h5", folder / "resumed.h5");
 }
 
 TEST_CASE("Electronics are not applied again to a list without all photons or columns") {

@@ -7,6 +7,7 @@
 
 #include "scenes.hpp"
 #include "scintray/core/zlib_stream.hpp"
+#include "scintray/simulation/detail/range_records.hpp"
 #include "scintray/simulation/memory_sink.hpp"
 #include "scintray/simulation/simulation.hpp"
 #include "support/words.hpp"
@@ -121,6 +122,24 @@ TEST_CASE("Shards of a sweep divide its blocks, and merge in memory to what one 
   CHECK(third.ranges()[0].blocks == tally::BlockRange{1, 3});
 }
 
+TEST_CASE("A detected photon takes the bytes of the columns that its list has, and no others") {
+  const auto bytes_a_photon = [](const std::string& columns) {
+    const std::string scene = kCrystal + kPhotons + "[run]\nphoton_list = true\n" + columns;
+    const auto path = shard_file(scene, {}, "columns");
+    const std::string bytes = bytes_of(path);
+    std::size_t total = 0;
+    for (const auto& [from, length] : records_of(bytes))
+      if (static_cast<detail::Record>(bytes[from - 9]) == detail::Record::photons) total += length;
+    MemorySink photons;
+    merge_ranges({path}, photons);
+    REQUIRE(photons.photon_list.size() > 100);
+    return static_cast<double>(total) / static_cast<double>(photons.photon_list.size());
+  };
+  CHECK(bytes_a_photon("") == 64);
+  CHECK(bytes_a_photon("photon_columns = [\"time_ns\"]\n") == 4);
+  CHECK(bytes_a_photon("photon_columns = [\"event\", \"photon\", \"part\"]\n") == 20);
+}
+
 TEST_CASE("What differs between two runs is named: version, text, seed, work, files, limits") {
   Simulation simulation(scene_of(kCrystal + kPhotons));
   const RunOutline run = simulation.outline();
@@ -148,7 +167,8 @@ TEST_CASE("What differs between two runs is named: version, text, seed, work, fi
 
 TEST_CASE("A file of ranges that lies is refused, or read, and nothing else happens") {
   for (const std::string& scene :
-       {kCrystal + kPhotons + kRowsOfLight + kPathTally, kCrystal + kEvents + kElectronics}) {
+       {kCrystal + kPhotons + kRowsOfLight + kPathTally, kCrystal + kEvents + kElectronics,
+        kCrystal + kPhotons + "[run]\nphoton_list = true\nphoton_columns = [\"part\"]\n"}) {
     const auto path = shard_file(scene, {}, "lies");
     const std::string sound = bytes_of(path);
     REQUIRE(merges(sound, path.parent_path()));

@@ -107,8 +107,9 @@ std::string difference(const RunOutline& of, const RunOutline& from) {
 }
 
 struct RangeFile::State {
-  explicit State(const std::filesystem::path& path)
-      : file(path, core::Container::plain), records([this](std::string_view bytes) { file.write(bytes); }) {}
+  State(const std::filesystem::path& path, const results::PhotonListLayout& photons)
+      : file(path, core::Container::plain),
+        records([this](std::string_view bytes) { file.write(bytes); }, photons) {}
 
   core::OutputFile file;
   detail::RangeWriter records;
@@ -120,7 +121,7 @@ RangeFile::RangeFile(std::filesystem::path path, const Shard& shard)
 RangeFile::~RangeFile() = default;
 
 void RangeFile::begin(const RunOutline& run) {
-  state_ = std::make_unique<State>(path_);
+  state_ = std::make_unique<State>(path_, run.photons);
   state_->file.write(detail::kMagic);
   state_->file.write(encoded(detail::kRangesVersion));
   state_->records.write(Record::outline, encoded(shard_, run));

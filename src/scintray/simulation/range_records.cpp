@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "scintray/core/zlib_stream.hpp"
+#include "scintray/simulation/detail/photon_rows.hpp"
 #include "scintray/simulation/detail/range_stream.hpp"
 
 namespace scintray::simulation::detail {
@@ -141,6 +142,9 @@ RangeReader::Content replay_range(RecordReader& records, const RunOutline& run, 
   const tally::RunHeader& header = run.header;
   ResultSink& sink = target.sink;
   RangeReader::Content content;
+  const PhotonRows photon_rows(run.photons);
+  tally::DetectedPhoton absent = results::format::unknown_photon();
+  absent.point = static_cast<std::uint32_t>(of.point);
   bool has_readout = false;
   std::size_t channels = 0, orders = 0, samples = 0;
   while (!records.at_end()) {
@@ -165,11 +169,12 @@ RangeReader::Content replay_range(RecordReader& records, const RunOutline& run, 
         if (!is_consistent(*content.histories, run.histories)) throw records.damaged();
         break;
       case Record::photons: {
-        if (!run.photon_list) throw records.damaged();
-        const auto rows = records.rows<tally::DetectedPhoton>();
+        if (!run.photon_list || photon_rows.are_empty()) throw records.damaged();
+        const auto rows = records.rows(absent, [&](Decoder& decoder, tally::DetectedPhoton& photon) {
+          photon_rows.exchange(decoder, photon);
+        });
         for (const tally::DetectedPhoton& row : rows)
-          if (!within(row.part, header.parts) || !within(row.face, header.faces) || row.point != of.point)
-            throw records.damaged();
+          if (!within(row.part, header.parts) || !within(row.face, header.faces)) throw records.damaged();
         sink.photons(rows);
         break;
       }

@@ -49,7 +49,7 @@ void RangeWriter::begin_events(std::size_t point, const std::vector<tally::Reado
 
 void RangeWriter::photons(const std::vector<tally::DetectedPhoton>& photons) {
   write_paths();
-  for (tally::DetectedPhoton photon : photons) pass(photons_, photon);
+  for (tally::DetectedPhoton photon : photons) photon_rows_.exchange(photons_, photon);
   write_rows(Record::photons, photons_, kRowBytes);
 }
 

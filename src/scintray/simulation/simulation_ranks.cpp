@@ -57,11 +57,12 @@ void end_others(Ranks& ranks) {
 detail::TraceJob Simulation::job_tracer(std::size_t number) {
   const std::shared_ptr<const SimulationPoint> traced = point(number);
   auto renumbering = std::make_shared<const Renumbering>(traced->scene(), names_);
-  return [traced, renumbering, number](const detail::RankJob& job, const std::atomic<bool>& stop) {
+  return [traced, renumbering, number, photons = outline_.photons](const detail::RankJob& job,
+                                                                   const std::atomic<bool>& stop) {
     const auto start = std::chrono::steady_clock::now();
     detail::RankResult result;
     result.number = job.number;
-    detail::RangeWriter writer([&](std::string_view bytes) { result.records.append(bytes); });
+    detail::RangeWriter writer([&](std::string_view bytes) { result.records.append(bytes); }, photons);
     RunHooks run = detail::passing_on(*traced, *renumbering, number, writer);
     detail::begin_events(*traced, *renumbering, number, writer);
     run.stop = &stop;

@@ -1,6 +1,5 @@
 // The list of detected photons of a results file.
 #include <algorithm>
-#include <limits>
 #include <sstream>
 
 #include "scintray/core/error.hpp"
@@ -39,15 +38,6 @@ PhotonListLayout layout_of(const core::h5::Group& photons, const std::filesystem
   return layout;
 }
 
-/// A photon with all fields unknown.
-tally::DetectedPhoton unknown_photon() {
-  constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
-  tally::DetectedPhoton photon;
-  photon.position_mm = photon.direction = {kNone, kNone, kNone};
-  photon.wavelength_nm = photon.time_ns = photon.path_mm = kNone;
-  return photon;
-}
-
 }  // namespace
 
 PhotonListLayout read_photon_layout(const std::filesystem::path& path) {
@@ -60,7 +50,7 @@ std::vector<tally::DetectedPhoton> read_photons(const std::filesystem::path& pat
   const core::h5::File file = format::open_results(path);
   const core::h5::Group group = list_of_photons(file, path);
   const PhotonListLayout layout = layout_of(group, path);
-  auto photons = format::read_rows(group, offset, count, unknown_photon(),
+  auto photons = format::read_rows(group, offset, count, format::unknown_photon(),
                                    [&](const std::string& column) { return layout.has(column); });
   if (!photons) throw format::damaged(path, "the columns of photons differ in length");
   return std::move(*photons);

@@ -28,7 +28,7 @@ enum class Record : std::uint8_t {
 
 /// First bytes of a file, and the version of its layout after them.
 inline constexpr std::string_view kMagic = "ScintRay block ranges\n";
-inline constexpr std::uint32_t kRangesVersion = 5;
+inline constexpr std::uint32_t kRangesVersion = 6;
 /// Of a record: its kind and the number of its bytes before them, their CRC-32 and those of both after.
 inline constexpr std::size_t kRecordHead = 1 + sizeof(std::uint64_t), kRecordTail = sizeof(std::uint32_t);
 
@@ -97,11 +97,6 @@ template <typename A>
 void exchange(A& a, detector::ReadoutSpec& v) {
   pass(a, v.period_ns, v.before_ns, v.window_ns, v.gate_ns, v.shaping_ns, v.noise, v.adc_bits, v.adc_range);
   pass(a, v.time_pickoff, v.threshold, v.fraction, v.delay_ns, v.pulses, v.photon_order, v.where);
-}
-template <typename A>
-void exchange(A& a, tally::DetectedPhoton& v) {
-  pass(a, v.point, v.event, v.photon, v.part, v.face, v.position_mm, v.direction, v.wavelength_nm, v.time_ns,
-       v.path_mm, v.interactions);
 }
 template <typename A>
 void exchange(A& a, tally::PathStep& v) {

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scintray/simulation/detail/photon_rows.hpp"
 #include "scintray/simulation/detail/range_records.hpp"
 #include "scintray/simulation/range_file.hpp"
 
@@ -21,7 +22,9 @@ class RangeWriter : public ResultSink {
  public:
   using Put = std::function<void(std::string_view bytes)>;
 
-  explicit RangeWriter(Put put) : put_(std::move(put)) {}
+  /// @param photons  columns of the list of photons that are stored
+  explicit RangeWriter(Put put, const results::PhotonListLayout& photons = {})
+      : put_(std::move(put)), photon_rows_(photons) {}
 
   void write(Record record, std::string_view content);
 
@@ -42,6 +45,7 @@ class RangeWriter : public ResultSink {
   void write_paths();
 
   Put put_;
+  PhotonRows photon_rows_;
   Encoder photons_, histories_, events_;  ///< rows of the present range that wait to be written
   bool has_subjects_ = false;             ///< of the present range
   std::string readout_;                   ///< record of the present point; empty for a source of photons
@@ -97,10 +101,15 @@ class RecordReader {
   /// Rows of the record, each of which is passed on.
   template <typename Row>
   std::vector<Row> rows() const {
+    return rows(Row(), [](Decoder& decoder, Row& row) { detail::pass(decoder, row); });
+  }
+  /// The same where `read(decoder, row)` sets members of a row that is otherwise `absent`. Each has bytes.
+  template <typename Row, typename Read>
+  std::vector<Row> rows(const Row& absent, const Read& read) const {
     std::vector<Row> rows;
     try {
       Decoder decoder(content_);
-      while (!decoder.at_end()) detail::pass(decoder, rows.emplace_back());
+      while (!decoder.at_end()) read(decoder, rows.emplace_back(absent));
     } catch (const Undecodable&) {
       throw damaged();
     }
