@@ -77,7 +77,8 @@ TEST_CASE("wave scattering has one spectrum of heights, and is refused where it 
                                          "\", correlation_length = \"0.3 um\" }")),
                         crystal, air, 420.0, 400.0, 500.0);
   };
-  const auto* face = make("3 nm").surface.microsurface.get_if<WaveScatterSurface>();
+  const MadeSurface made = make("3 nm");
+  const auto* face = made.surface.microsurface.get_if<WaveScatterSurface>();
   REQUIRE(face);
   CHECK(face->most_scattered() > 0.001);
   CHECK(face->most_scattered() < 0.05);
