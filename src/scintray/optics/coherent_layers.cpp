@@ -16,12 +16,6 @@ constexpr double kObliqueFrom = 1e-20;
 /// Least cosine of incidence, where the amplitudes reach their limit at grazing incidence.
 constexpr double kGrazing = 1e-12;
 
-/// Index times the cosine of the angle in a medium, of a wave that decays, or travels on, behind the face.
-Complex normal_index(Complex index, double transverse_index) {
-  const Complex q = std::sqrt(index * index - transverse_index * transverse_index);
-  return q.imag() < 0.0 || (q.imag() == 0.0 && q.real() < 0.0) ? -q : q;
-}
-
 /// Amplitudes reflected and transmitted by everything behind a face.
 struct Amplitudes {
   Complex r, t;
@@ -85,6 +79,11 @@ void polarise(Ray& ray, const Components& before, const Leaving& out, core::Rng&
 }
 
 }  // namespace
+
+std::complex<double> normal_index(std::complex<double> index, double transverse_index) {
+  const Complex q = std::sqrt(index * index - transverse_index * transverse_index);
+  return q.imag() < 0.0 || (q.imag() == 0.0 && q.real() < 0.0) ? -q : q;
+}
 
 FilmOutcome interact_at_films(Ray& ray, const core::Vec3& m, const FilmResponse& film, double n1, double n2,
                               core::Rng& rng) {

@@ -34,6 +34,10 @@ struct FilmResponse {
   double transmittance() const { return 0.5 * (transmittance_s + transmittance_p); }
 };
 
+/// Index times the cosine of the angle in a medium, of a wave that decays, or travels on, behind the face.
+/// @param transverse_index  index times the sine of the angle, the same in all media
+std::complex<double> normal_index(std::complex<double> index, double transverse_index);
+
 /// Response of films between two media to light incident at an angle of cosine `cos_i` in [0, 1].
 ///
 /// Light beyond the critical angle of a film crosses it as an evanescent wave, and is transmitted when the

@@ -22,12 +22,6 @@ constexpr double kOffGrazing = 1e-9;
 constexpr double kMargin = 1.05;
 constexpr int kMostTries = 1'000'000;
 
-/// Normal component of the index: real, or imaginary for a wave that decays from the face.
-Complex normal_component(double index, double transverse) {
-  const double square = index * index - transverse * transverse;
-  return square >= 0.0 ? Complex(std::sqrt(square), 0.0) : Complex(0.0, std::sqrt(-square));
-}
-
 double squares_p(const FaceFields& fields) { return std::norm(fields.along) + std::norm(fields.normal); }
 
 /// Sets the polarisation of a ray of its new direction: a field along s and s x k, of which a ray that does
@@ -42,14 +36,29 @@ void polarise(Ray& ray, const core::Vec3& s, const FieldComponents& field, core:
 /// Squares of the fields of both polarisations over the normal component of the index.
 double squares_over_normal(double transverse, double n1, double n2) {
   const FaceFields fields = face_fields(transverse, n1, n2);
-  return (std::norm(fields.s) + squares_p(fields)) / normal_component(n1, transverse).real();
+  return (std::norm(fields.s) + squares_p(fields)) / normal_index(n1, transverse).real();
 }
 
-/// Amplitude reflected of the electric field, s and p, by Fresnel's equations below the critical angle.
+/// Amplitude reflected of the electric field, s and p, below the critical angle.
 std::array<double, 2> reflected_amplitudes(double transverse, double n1, double n2) {
-  const double q1 = normal_component(n1, transverse).real(), q2 = normal_component(n2, transverse).real();
-  return {(q1 - q2) / (q1 + q2), (n1 * n1 * q2 - n2 * n2 * q1) / (n1 * n1 * q2 + n2 * n2 * q1)};
+  const double cos_i = normal_index(n1, transverse).real() / n1,
+               cos_t = normal_index(n2, transverse).real() / n2;
+  const FresnelAmplitudes r(cos_i, cos_t, n1, n2);
+  return {r.s, -r.p};
 }
+
+/// Transverse index of scattered light, and its azimuth from that of the incident light.
+struct Transverse {
+  double length;
+  core::SineCosine turn{0.0, 1.0};
+
+  /// The incident light's, with a lateral wave of an index `added` at an azimuth.
+  Transverse(double incident, double added, const core::SineCosine& about) {
+    const double x = incident + added * about.cosine, y = added * about.sine;
+    length = std::sqrt(x * x + y * y);
+    if (length > 0.0) turn = {y / length, x / length};
+  }
+};
 
 /// Power scattered into one direction, per squared height and unit of its distribution over transverse index:
 /// by s and p light, and of that the tangential part less the normal part.
@@ -82,13 +91,13 @@ Scattered scattered_into(const FaceFields& in, double transverse, const core::Si
     if (transverse >= from) continue;
     const FaceFields out = face_fields(transverse, from, onto);
     sum.add(scattered_by(scatter_amplitudes(in, out, turn, crosses)),
-            1.0 / normal_component(from, transverse).real());
+            1.0 / normal_index(from, transverse).real());
   }
   return sum;
 }
 
 double incident_factor(double transverse, double n1, double n2, double wave_number) {
-  return std::pow(wave_number * (n2 * n2 - n1 * n1), 2) / (4.0 * normal_component(n1, transverse).real());
+  return std::pow(wave_number * (n2 * n2 - n1 * n1), 2) / (4.0 * normal_index(n1, transverse).real());
 }
 
 /// Transverse indices of the table: below the lower index, dense towards it, or between the two, dense
@@ -106,7 +115,7 @@ double place_of(double transverse, double low, double high) {
 }  // namespace
 
 FaceFields face_fields(double transverse, double n1, double n2) {
-  const Complex q1 = normal_component(n1, transverse), q2 = normal_component(n2, transverse);
+  const Complex q1 = normal_index(n1, transverse), q2 = normal_index(n2, transverse);
   const Complex sum = n2 * n2 * q1 + n1 * n1 * q2;
   return {2.0 * q1 / (q1 + q2), 2.0 * n1 * q1 * q2 / sum, 2.0 * transverse * n2 * q1 / sum};
 }
@@ -131,11 +140,9 @@ std::array<SpecularShares, 2> specular_shares(double transverse, double n1, doub
         wavelength_nm * spectrum.frequency_per_nm((i + 0.5) / static_cast<double>(kFrequencySteps), limit);
     for (int k = 0; k < kTurnSteps; ++k) {
       const core::SineCosine about = core::sincos(core::kPi * (k + 0.5) / kTurnSteps);
-      const double x = transverse + added * about.cosine, y = added * about.sine;
-      const double length = std::sqrt(x * x + y * y);
-      const core::SineCosine turn =
-          length > 0.0 ? core::SineCosine{y / length, x / length} : core::SineCosine{0.0, 1.0};
-      sum.add(scattered_into(in, length, turn, {n1, n2}), factor * variance / (kFrequencySteps * kTurnSteps));
+      const Transverse out(transverse, added, about);
+      sum.add(scattered_into(in, out.length, out.turn, {n1, n2}),
+              factor * variance / (kFrequencySteps * kTurnSteps));
     }
   }
   std::array<SpecularShares, 2> shares;
@@ -145,7 +152,7 @@ std::array<SpecularShares, 2> specular_shares(double transverse, double n1, doub
   Scattered displaced;
   displaced.add(scattered_into(in, transverse, {0.0, 1.0}, {n1, n2}), factor * all);
   const std::array<double, 2> r = reflected_amplitudes(transverse, n1, n2);
-  const double phase2 = 4.0 * std::pow(normal_component(n1, transverse).real() * wave_number, 2) * all;
+  const double phase2 = 4.0 * std::pow(normal_index(n1, transverse).real() * wave_number, 2) * all;
   for (std::size_t k = 0; k < 2; ++k) {
     const double lost_reflectance =
         r[k] * (sum.difference[k] - displaced.difference[k]) + phase2 * r[k] * r[k];
@@ -270,15 +277,13 @@ bool WaveScatterSurface::scatter_light(Ray& ray, Side& side, const core::Vec3& a
   for (int k = 0; k < kMostTries; ++k) {
     const double added = nm * spectrum_->frequency_per_nm(rng.uniform(), limit);
     const core::SineCosine about = core::sincos_of_turn(rng.uniform());
-    const double x = transverse + added * about.cosine, y = added * about.sine;
-    const double length = std::sqrt(x * x + y * y), wanted = rng.uniform() * bound;
-    const core::SineCosine turn =
-        length > 0.0 ? core::SineCosine{y / length, x / length} : core::SineCosine{0.0, 1.0};
+    const auto [length, turn] = Transverse(transverse, added, about);
+    const double wanted = rng.uniform() * bound;
     double sum = 0.0;
     for (const bool crosses : {false, true}) {
       const double from = crosses ? n2 : n1;
       if (length >= from) continue;
-      const double normal = normal_component(from, length).real();
+      const double normal = normal_index(from, length).real();
       const ScatterAmplitudes amplitude =
           scatter_amplitudes(in, face_fields(length, from, crosses ? n1 : n2), turn, crosses);
       const FieldComponents out{amplitude.s_s * field.s + amplitude.s_p * field.p,

@@ -30,15 +30,12 @@ class UnknownNodes {
   }
   int operator()(int a, int b, int k) const {
     const int low = std::min(a, b), high = std::max(a, b);
-    return numbers_[place(low, high, low == 0 ? 0 : k)];
+    return numbers_[BrdfTable::node(low, high, low == 0 ? 0 : k)];
   }
   int count() const { return count_; }
 
  private:
-  static std::size_t place(int a, int b, int k) {
-    return static_cast<std::size_t>((a * kBrdfPolar + b) * kBrdfTurns + k);
-  }
-  int& first(int a, int b, int k) { return numbers_[place(a, b, k)]; }
+  int& first(int a, int b, int k) { return numbers_[BrdfTable::node(a, b, k)]; }
 
   std::vector<int> numbers_ = std::vector<int>(kBrdfPolar * kBrdfPolar * kBrdfTurns, 0);
   int count_ = 0;
@@ -52,13 +49,8 @@ void add_points(LeastSquares& problem, const UnknownNodes& number, const std::ve
     const auto out = grid_place(x(point.polar_rad), kBrdfPolar, BrdfTable::polar_node);
     const auto turn = grid_place(point.turn_rad, kBrdfTurns, BrdfTable::turn_node);
     const double weight = 1.0 / std::max(point.value_per_sr, 1e-3 * mean);
-    LeastSquares::Row row;
-    for (int corner = 0; corner < 8; ++corner) {
-      const int i = corner & 1, j = corner >> 1 & 1, k = corner >> 2;
-      row.emplace_back(number(in.first + i, out.first + j, turn.first + k),
-                       weight * (i ? in.second : 1.0 - in.second) * (j ? out.second : 1.0 - out.second) *
-                           (k ? turn.second : 1.0 - turn.second));
-    }
+    LeastSquares::Row row = grid_row(number, in, out, turn);
+    for (auto& [unknown, share] : row) share *= weight;
     problem.add(row, weight * point.value_per_sr);
   }
 }

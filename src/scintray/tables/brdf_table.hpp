@@ -65,6 +65,10 @@ class BrdfTable {
     return table;
   }
 
+  /// Number of a node of all.
+  static std::size_t node(int a, int b, int k) {
+    return static_cast<std::size_t>((a * kBrdfPolar + b) * kBrdfTurns + k);
+  }
   /// Nodes around two directions, and their weights.
   struct Corner {
     int a, b, k;
@@ -93,12 +97,8 @@ class BrdfTable {
   std::optional<Sample> sample(double x_in, core::Rng& rng) const;
 
  private:
-  double& at(int a, int b, int k) {
-    return values_[static_cast<std::size_t>((a * kBrdfPolar + b) * kBrdfTurns + k)];
-  }
-  double at(int a, int b, int k) const {
-    return values_[static_cast<std::size_t>((a * kBrdfPolar + b) * kBrdfTurns + k)];
-  }
+  double& at(int a, int b, int k) { return values_[node(a, b, k)]; }
+  double at(int a, int b, int k) const { return values_[node(a, b, k)]; }
   /// Enforces the conservation of energy, and computes the sums for sampling.
   void finish();
   void sum_rows();

@@ -31,10 +31,6 @@ constexpr std::array<Element, 9> kElements{{{0, 1, false, 1.0},
                                             {2, 3, false, -1.0},
                                             {3, 3, false, 1.0}}};
 
-std::size_t node_of(int a, int b, int k) {
-  return static_cast<std::size_t>((a * kBrdfPolar + b) * kBrdfTurns + k);
-}
-
 /// Numbers of the unknowns of an element: those on the diagonal are the same for the reversed path.
 class ElementNodes {
  public:
@@ -56,17 +52,9 @@ double fit_turn_node(int node) { return core::kPi * node / (kFitTurns - 1); }
 
 /// Weights of the fit's nodes at two directions.
 LeastSquares::Row fit_row(const ElementNodes& number, double in_rad, double out_rad, double turn_rad) {
-  const auto in = grid_place(in_rad, kFitPolar, fit_polar_node),
-             out = grid_place(out_rad, kFitPolar, fit_polar_node),
-             turn = grid_place(turn_rad, kFitTurns, fit_turn_node);
-  LeastSquares::Row row;
-  for (int corner = 0; corner < 8; ++corner) {
-    const int i = corner & 1, j = corner >> 1 & 1, k = corner >> 2;
-    row.emplace_back(number(in.first + i, out.first + j, turn.first + k),
-                     (i ? in.second : 1.0 - in.second) * (j ? out.second : 1.0 - out.second) *
-                         (k ? turn.second : 1.0 - turn.second));
-  }
-  return row;
+  return grid_row(number, grid_place(in_rad, kFitPolar, fit_polar_node),
+                  grid_place(out_rad, kFitPolar, fit_polar_node),
+                  grid_place(turn_rad, kFitTurns, fit_turn_node));
 }
 
 void add_matrix_smoothness(LeastSquares& problem, const ElementNodes& number) {
@@ -120,7 +108,7 @@ MuellerTable MuellerTable::fitted(const std::vector<BrdfPoint>& points, const Br
           double value = 0.0;
           for (const auto& [unknown, weight] : fit_row(number, polar(a), polar(b), BrdfTable::turn_node(k)))
             value += weight * solution[unknown];
-          table.elements_[e][node_of(a, b, k)] = value;
+          table.elements_[e][BrdfTable::node(a, b, k)] = value;
         }
   }
   table.finish();
@@ -129,14 +117,16 @@ MuellerTable MuellerTable::fitted(const std::vector<BrdfPoint>& points, const Br
 }
 
 void MuellerTable::finish() {
+  const auto polarising_at = [&](std::size_t node) {
+    return std::sqrt(std::pow(elements_[0][node], 2) + std::pow(elements_[1][node], 2) +
+                     std::pow(elements_[2][node], 2));
+  };
   for (int a = 0; a < kBrdfPolar; ++a) {
     double sum = 0.0;
     for (int b = 0; b < kBrdfPolar; ++b)
       for (int k = 0; k < kBrdfTurns; ++k) {
-        const std::size_t node = node_of(a, b, k);
-        const double polarising =
-            std::sqrt(std::pow(elements_[0][node], 2) + std::pow(elements_[1][node], 2) +
-                      std::pow(elements_[2][node], 2));
+        const std::size_t node = BrdfTable::node(a, b, k);
+        const double polarising = polarising_at(node);
         if (polarising > kMostPolarising)
           for (std::size_t e = 0; e < 3; ++e) elements_[e][node] *= kMostPolarising / polarising;
         sum += brdf_.node_value(a, b, k) * elements_[0][node] * BrdfTable::node_integral(b, k);
@@ -148,11 +138,9 @@ void MuellerTable::finish() {
     by_polarisation_[static_cast<std::size_t>(a)] = kept;
     for (int b = 0; b < kBrdfPolar; ++b)
       for (int k = 0; k < kBrdfTurns; ++k) {
-        const std::size_t node = node_of(a, b, k);
+        const std::size_t node = BrdfTable::node(a, b, k);
         if (all > 0.0) elements_[0][node] -= (sum - kept) / all;
-        most_excess_ = std::max(most_excess_,
-                                std::sqrt(std::pow(elements_[0][node], 2) + std::pow(elements_[1][node], 2) +
-                                          std::pow(elements_[2][node], 2)));
+        most_excess_ = std::max(most_excess_, polarising_at(node));
       }
   }
 }
@@ -165,9 +153,9 @@ Eigen::Matrix4d MuellerTable::matrix(double x_in, double x_out, double turn_rad)
     for (std::size_t e = 0; e < kElements.size(); ++e) {
       const auto& [row, column, odd, reversed] = kElements[e];
       const double sign = odd && turn_rad < 0.0 ? -value : value;
-      sum(row, column) += sign * elements_[e][node_of(corner.a, corner.b, corner.k)];
+      sum(row, column) += sign * elements_[e][BrdfTable::node(corner.a, corner.b, corner.k)];
       if (row != column)
-        sum(column, row) += sign * reversed * elements_[e][node_of(corner.b, corner.a, corner.k)];
+        sum(column, row) += sign * reversed * elements_[e][BrdfTable::node(corner.b, corner.a, corner.k)];
     }
   }
   if (sum(0, 0) > 0.0) sum /= sum(0, 0);

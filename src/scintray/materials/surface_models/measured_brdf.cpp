@@ -28,17 +28,23 @@ Stokes incident_stokes(const optics::Ray& ray, const core::Vec3& s) {
   return {1.0, stokes.s1, -stokes.s2, stokes.s3};
 }
 
-/// A direction of reflected light, its azimuth of either sign; nothing: absorbed.
-std::optional<tables::BrdfTable::Sample> sample_polarised(const tables::MuellerTable& mueller,
-                                                          const tables::BrdfTable& brdf, double x_in,
-                                                          const Stokes& stokes, core::Rng& rng) {
+/// Reflected light: its direction, with an azimuth of either sign, and of polarised light its Stokes
+/// parameters.
+struct Reflected {
+  tables::BrdfTable::Sample exit;
+  Stokes stokes;
+};
+
+/// Polarised light that is reflected; nothing: absorbed.
+std::optional<Reflected> sample_polarised(const tables::MuellerTable& mueller, const tables::BrdfTable& brdf,
+                                          double x_in, const Stokes& stokes, core::Rng& rng) {
   if (rng.uniform() >= mueller.reflectance(x_in, stokes[1])) return std::nullopt;
   for (;;) {
     std::optional<tables::BrdfTable::Sample> exit = brdf.sample(x_in, rng);
     if (!exit) continue;
     if ((rng.bits() & 1) != 0) exit->turn_rad = -exit->turn_rad;
-    const double intensity = mueller.matrix(x_in, exit->x, exit->turn_rad).row(0).dot(stokes);
-    if (rng.uniform() * (1.0 + mueller.most_excess()) < intensity) return exit;
+    const Stokes out = mueller.matrix(x_in, exit->x, exit->turn_rad) * stokes;
+    if (rng.uniform() * (1.0 + mueller.most_excess()) < out[0]) return Reflected{*exit, out};
   }
 }
 
@@ -78,18 +84,21 @@ bool MeasuredBrdfSurface::reflect_light(optics::Ray& ray, const core::Vec3& norm
   const bool polarised = !ray.polarisation.isZero(0.0);
   const tables::MuellerTable* mueller =
       polarised && !brdf_->mueller.empty() ? &brdf_->mueller[slice] : nullptr;
-  const Stokes stokes = mueller ? incident_stokes(ray, forward.cross(normal)) : Stokes::Zero();
-  const std::optional<tables::BrdfTable::Sample> exit =
-      mueller ? sample_polarised(*mueller, brdf_->tables[slice], x_in, stokes, at.rng)
-              : brdf_->tables[slice].sample(x_in, at.rng);
-  if (!exit) return false;
-  const double cosine = std::max(std::sqrt(std::max(0.0, 1.0 - exit->x)), optics::kLeastOpaqueCosine);
+  std::optional<Reflected> light;
+  if (mueller) {
+    const Stokes stokes = incident_stokes(ray, forward.cross(normal));
+    light = sample_polarised(*mueller, brdf_->tables[slice], x_in, stokes, at.rng);
+  } else if (const auto exit = brdf_->tables[slice].sample(x_in, at.rng)) {
+    light = Reflected{{exit->x, (at.rng.bits() & 1) != 0 ? exit->turn_rad : -exit->turn_rad}, Stokes::Zero()};
+  }
+  if (!light) return false;
+  const double cosine = std::max(std::sqrt(std::max(0.0, 1.0 - light->exit.x)), optics::kLeastOpaqueCosine);
   const double out = std::sqrt(1.0 - cosine * cosine);
-  const double turn = mueller || (at.rng.bits() & 1) != 0 ? exit->turn_rad : -exit->turn_rad;
+  const double turn = light->exit.turn_rad;
   const core::Vec3 radial = std::cos(turn) * forward + std::sin(turn) * normal.cross(forward);
   ray.direction = out * radial + cosine * normal;
   if (mueller)
-    polarise(ray, radial.cross(normal), mueller->matrix(x_in, exit->x, turn) * stokes, at.rng);
+    polarise(ray, radial.cross(normal), light->stokes, at.rng);
   else if (polarised)
     optics::repolarise(ray, at.rng);
   return true;

@@ -43,4 +43,18 @@ std::pair<int, double> grid_place(double at, int nodes, const Node& node) {
   return {low, std::clamp((at - node(low)) / (node(low + 1) - node(low)), 0.0, 1.0)};
 }
 
+/// Weights of the eight nodes about a place on three grids, by their unknowns.
+template <typename Number>
+LeastSquares::Row grid_row(const Number& number, const std::pair<int, double>& in,
+                           const std::pair<int, double>& out, const std::pair<int, double>& turn) {
+  LeastSquares::Row row;
+  for (int corner = 0; corner < 8; ++corner) {
+    const int i = corner & 1, j = corner >> 1 & 1, k = corner >> 2;
+    row.emplace_back(number(in.first + i, out.first + j, turn.first + k),
+                     (i ? in.second : 1.0 - in.second) * (j ? out.second : 1.0 - out.second) *
+                         (k ? turn.second : 1.0 - turn.second));
+  }
+  return row;
+}
+
 }  // namespace scintray::tables
