@@ -39,9 +39,9 @@ TEST_CASE("geometry: the seeds are sound") {
 TEST_CASE("geometry: damaged files end in a whole mesh or an input error, within bounded memory") {
   // Every STEP file takes a process of its own; sanitized ones take many times as long.
 #ifdef SCINTRAY_SANITIZED
-  constexpr int kMostTrials = 300, kStepTrials = 30;
+  constexpr int kMostTrials = 100, kStepTrials = 10;
 #else
-  constexpr int kMostTrials = 1000, kStepTrials = 150;
+  constexpr int kMostTrials = 1000, kStepTrials = 100;
 #endif
   std::uint64_t stream = 0;
   for (const Entry& entry : read_entries()) {
@@ -61,8 +61,13 @@ TEST_CASE("geometry: damaged files end in a whole mesh or an input error, within
 }
 
 TEST_CASE("geometry: files cut short end in a mesh or an input error") {
+#ifdef SCINTRAY_SANITIZED
+  constexpr std::size_t kLengths = 20;
+#else
+  constexpr std::size_t kLengths = 100;
+#endif
   for (const Entry& entry : read_entries())
     for (const std::string& seed : all_seeds(entry))
-      for (std::size_t size = 0; size < seed.size(); size += 1 + seed.size() / 100)
+      for (std::size_t size = 0; size < seed.size(); size += 1 + seed.size() / kLengths)
         watched_run(entry, seed.substr(0, size));
 }

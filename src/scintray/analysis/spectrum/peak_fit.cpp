@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
 #include <memory>
+#include <vector>
 
 #include "scintray/analysis/fit/detail/gsl_errors.hpp"
 #include "scintray/core/vec.hpp"
@@ -19,6 +21,8 @@ namespace {
 
 constexpr std::size_t kMostParameters = 5;
 constexpr std::size_t kMostSteps = 200;
+constexpr std::array kBackgrounds{PeakBackground::none, PeakBackground::shoulder,
+                                  PeakBackground::shoulder_and_constant};
 /// Lower limit of an expectation, so that its logarithm exists.
 constexpr double kLeastExpected = 1e-30;
 
@@ -164,6 +168,8 @@ bool search(Task& task, PeakModel& found) {
   return usable(found) && (status == GSL_SUCCESS || status == GSL_ENOPROG);
 }
 
+double relative_fwhm(const PeakModel& model) { return core::kFwhmPerSigma * model.sigma / model.position; }
+
 void set_errors(const Histogram& histogram, PeakFit& fit) {
   const auto parameters = static_cast<Eigen::Index>(parameters_of(fit.background));
   Eigen::MatrixXd information = Eigen::MatrixXd::Zero(parameters, parameters);
@@ -181,7 +187,7 @@ void set_errors(const Histogram& histogram, PeakFit& fit) {
   fit.position = {model.position, error(0)};
   fit.sigma = {model.sigma, model.sigma * error(1)};
   fit.events = {model.events, model.events * error(2)};
-  const double relative = core::kFwhmPerSigma * model.sigma / model.position;
+  const double relative = relative_fwhm(model);
   const double variance = covariance(1, 1) + covariance(0, 0) / (model.position * model.position) -
                           2.0 * covariance(0, 1) / model.position;
   fit.relative_fwhm = {relative, std::abs(relative) * std::sqrt(std::max(0.0, variance))};
@@ -190,12 +196,14 @@ void set_errors(const Histogram& histogram, PeakFit& fit) {
 void set_goodness(const Histogram& histogram, PeakFit& fit) {
   std::vector<std::uint64_t> observed;
   std::vector<double> expected;
+  double deviance = 0.0;
   for_each_bin(fit.model, histogram, [&](std::size_t i, const BinExpectation& bin) {
     observed.push_back(static_cast<std::uint64_t>(histogram.counts[i]));
     expected.push_back(std::max(kLeastExpected, bin.value));
     const double r = residual(histogram.counts[i], expected.back());
-    fit.deviance += r * r;
+    deviance += r * r;
   });
+  fit.deviance = deviance;
   fit.goodness = core::chi_square_test(observed, expected);
   // That test subtracts one degree for a fixed total; here the total is fitted with the rest.
   fit.goodness.degrees += 1.0 - static_cast<double>(parameters_of(fit.background));
@@ -227,6 +235,45 @@ PeakFit fit_peak(const Histogram& histogram, const PeakModel& start, PeakBackgro
   set_errors(histogram, fit);
   set_goodness(histogram, fit);
   return fit;
+}
+
+PeakFit fit_peak(const Histogram& histogram, const PeakModel& start) {
+  std::vector<PeakFit> fits;
+  for (const PeakBackground background : kBackgrounds)
+    if (PeakFit fit = fit_peak(histogram, start, background); fit.converged) fits.push_back(fit);
+  if (fits.empty()) return {};
+  const auto criterion = [](const PeakFit& fit) {
+    return fit.deviance + 2.0 * static_cast<double>(parameters_of(fit.background));
+  };
+  const auto best = std::min_element(
+      fits.begin(), fits.end(), [&](const auto& a, const auto& b) { return criterion(a) < criterion(b); });
+  std::vector<double> weights;
+  double sum = 0.0;
+  for (const PeakFit& fit : fits)
+    sum += weights.emplace_back(std::exp(0.5 * (criterion(*best) - criterion(fit))));
+  PeakFit mean = *best;
+  const auto average = [&](auto of) {
+    double value = 0.0;
+    for (std::size_t i = 0; i < fits.size(); ++i) value += weights[i] / sum * of(fits[i]);
+    return value;
+  };
+  mean.model = {.position = average([](const PeakFit& fit) { return fit.model.position; }),
+                .sigma = average([](const PeakFit& fit) { return fit.model.sigma; }),
+                .events = average([](const PeakFit& fit) { return fit.model.events; }),
+                .shoulder = average([](const PeakFit& fit) { return fit.model.shoulder; }),
+                .constant = average([](const PeakFit& fit) { return fit.model.constant; })};
+  const auto estimate = [&](core::Estimate PeakFit::*of, double value) {
+    (mean.*of).value = value;
+    (mean.*of).error = std::sqrt(average([&](const PeakFit& fit) {
+      return std::norm(std::complex((fit.*of).error, (fit.*of).value - value));
+    }));
+  };
+  estimate(&PeakFit::position, mean.model.position);
+  estimate(&PeakFit::sigma, mean.model.sigma);
+  estimate(&PeakFit::events, mean.model.events);
+  estimate(&PeakFit::relative_fwhm, relative_fwhm(mean.model));
+  set_goodness(histogram, mean);
+  return mean;
 }
 
 }  // namespace scintray::analysis

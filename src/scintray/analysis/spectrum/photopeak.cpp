@@ -21,7 +21,6 @@ namespace {
 constexpr double kLeastInPeak = 100.0;
 constexpr double kBelow = 3.0, kAbove = 4.0, kLeastBelow = 1.5, kFlanks = 1.6;
 constexpr double kPeakBinsPerSigma = 4.0;
-constexpr double kWorthATerm = 9.0;
 constexpr double kPoor = 1e-4;
 constexpr double kSmallMisfit = 0.01;
 constexpr int kMostPeakRounds = 8;
@@ -32,7 +31,8 @@ constexpr double kRise = 0.07;
 constexpr double kStable = 0.02;
 /// Share of the sigma of its range below which a fit has found a fluctuation in place of the peak.
 constexpr double kLeastShrinking = 0.25;
-/// Quarters, as the fitted range and background depend on the values in steps; 36 degrees of freedom.
+/// Quarters: what steps remain (bins, the range) are enlarged less than by smaller groups; 36 degrees of
+/// freedom.
 constexpr Divisions kDivisions{.number = 12, .groups = 4};
 
 /// Approximate photopeak of a spectrum: the start of a fit.
@@ -124,16 +124,6 @@ std::optional<PeakPlace> find_photopeak(std::span<const double> sorted) {
   return best;
 }
 
-PeakFit fit_with_background(const Histogram& histogram, PeakModel start, const PhotopeakOptions& options) {
-  if (options.background) return fit_peak(histogram, start, *options.background);
-  PeakFit best = fit_peak(histogram, start, PeakBackground::none);
-  for (const PeakBackground more : {PeakBackground::shoulder, PeakBackground::shoulder_and_constant}) {
-    const PeakFit richer = fit_peak(histogram, start, more);
-    if (richer.converged && (!best.converged || best.deviance - richer.deviance > kWorthATerm)) best = richer;
-  }
-  return best;
-}
-
 /// Initial heights, from the counts of the outermost bins.
 PeakModel start_model(const Histogram& histogram, double position, double sigma) {
   PeakModel start;
@@ -211,7 +201,9 @@ void fit_until_stable(std::span<const double> sorted, const PeakPlace& place, co
     if (!(span.high > span.low)) return;
     peak.fitted = make_histogram_of_width(sorted, span.low, span.high, sigma / kPeakBinsPerSigma);
     if (peak.fitted.total() < least) return;
-    const PeakFit fit = fit_with_background(peak.fitted, start_model(peak.fitted, position, sigma), options);
+    const PeakModel start = start_model(peak.fitted, position, sigma);
+    const PeakFit fit =
+        options.background ? fit_peak(peak.fitted, start, *options.background) : fit_peak(peak.fitted, start);
     if (!fit.converged) return;
     if (fit.model.sigma < kLeastShrinking * sigma) {
       // A fluctuation in a range that is too narrow for the peak.

@@ -26,8 +26,7 @@ struct PhotopeakOptions {
   /// Range in which a peak is searched and fitted; without it, the peak of highest energy among those with at
   /// least a tenth (chosen) of the height of the highest.
   std::optional<std::array<double, 2>> window;
-  /// Background model; without it, the simplest that the data do not reject: a term is added when twice the
-  /// log likelihood ratio is above 9 (by chance once in 700: S. S. Wilks 1938, Ann. Math. Statist. 9, 60).
+  /// Background model; without it, the mean of the fits with each (fit_peak).
   std::optional<PeakBackground> background;
 };
 
@@ -54,9 +53,9 @@ struct Photopeak {
 /// quarter of its height above the valley (1.5 to 3 sigma). It is repeated until the span agrees with the
 /// result. These limits are chosen such that pulls over a thousand runs have width 1 (docs/decisions.md).
 /// The errors are those of the jackknife over quarters of the values, in 12 random divisions: they
-/// hold also where the model does not describe the spectrum exactly, and include the contributions of the
-/// choice of span and background; where a fit of three quarters fails, they are the fit's own. That of
-/// `events` treats the number of pulses as Poisson distributed.
+/// hold also where the model does not describe the spectrum exactly, and include the contributions of span
+/// and background; where a fit of three quarters fails, they are the fit's own. That of `events` treats the
+/// number of pulses as Poisson distributed.
 /// @param values  one per pulse, in any positive unit; values that are not finite are left out
 Photopeak fit_photopeak(std::span<const double> values, const PhotopeakOptions& options = {});
 
