@@ -242,8 +242,8 @@ PeakFit fit_peak(const Histogram& histogram, const PeakModel& start) {
   for (const PeakBackground background : kBackgrounds)
     if (PeakFit fit = fit_peak(histogram, start, background); fit.converged) fits.push_back(fit);
   if (fits.empty()) return {};
-  const auto criterion = [](const PeakFit& fit) {
-    return fit.deviance + 2.0 * static_cast<double>(parameters_of(fit.background));
+  const auto criterion = [&](const PeakFit& fit) {
+    return fit.deviance + std::log(histogram.total()) * static_cast<double>(parameters_of(fit.background));
   };
   const auto best = std::min_element(
       fits.begin(), fits.end(), [&](const auto& a, const auto& b) { return criterion(a) < criterion(b); });

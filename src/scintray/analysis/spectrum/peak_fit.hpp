@@ -49,10 +49,11 @@ struct PeakFit {
 /// @param start  start of the search; its sigma and events must be positive
 PeakFit fit_peak(const Histogram& histogram, const PeakModel& start, PeakBackground background);
 
-/// Mean of the fits with each background, whose parameters have the weights exp(-(deviance + 2 parameters) /
-/// 2) (of Akaike's criterion, K. P. Burnham and D. R. Anderson 1998, as stated by Program MARK, "QAICc
-/// Weight"): unlike the choice of one background, it follows the counts without steps. Background is that of
-/// the largest weight. Errors include the differences of the fits. Not converged when no fit is.
+/// Mean of the fits with each background, whose parameters have the weights exp(-BIC / 2), with BIC =
+/// deviance + parameters ln(pulses) (G. Schwarz 1978, cited from memory; weights as Program MARK states them
+/// under "QAICc Weight"): unlike the choice of one background, it follows the counts without steps.
+/// Background is that of the largest weight. Errors include the differences of the fits. Not converged when
+/// no fit is.
 PeakFit fit_peak(const Histogram& histogram, const PeakModel& start);
 
 }  // namespace scintray::analysis
