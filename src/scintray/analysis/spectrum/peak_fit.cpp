@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <complex>
 #include <memory>
 #include <vector>
 
@@ -196,14 +195,13 @@ void set_errors(const Histogram& histogram, PeakFit& fit) {
 void set_goodness(const Histogram& histogram, PeakFit& fit) {
   std::vector<std::uint64_t> observed;
   std::vector<double> expected;
-  double deviance = 0.0;
+  fit.deviance = 0.0;
   for_each_bin(fit.model, histogram, [&](std::size_t i, const BinExpectation& bin) {
     observed.push_back(static_cast<std::uint64_t>(histogram.counts[i]));
     expected.push_back(std::max(kLeastExpected, bin.value));
     const double r = residual(histogram.counts[i], expected.back());
-    deviance += r * r;
+    fit.deviance += r * r;
   });
-  fit.deviance = deviance;
   fit.goodness = core::chi_square_test(observed, expected);
   // That test subtracts one degree for a fixed total; here the total is fitted with the rest.
   fit.goodness.degrees += 1.0 - static_cast<double>(parameters_of(fit.background));
@@ -242,8 +240,9 @@ PeakFit fit_peak(const Histogram& histogram, const PeakModel& start) {
   for (const PeakBackground background : kBackgrounds)
     if (PeakFit fit = fit_peak(histogram, start, background); fit.converged) fits.push_back(fit);
   if (fits.empty()) return {};
+  const double for_a_parameter = std::log(histogram.total());
   const auto criterion = [&](const PeakFit& fit) {
-    return fit.deviance + std::log(histogram.total()) * static_cast<double>(parameters_of(fit.background));
+    return fit.deviance + for_a_parameter * static_cast<double>(parameters_of(fit.background));
   };
   const auto best = std::min_element(
       fits.begin(), fits.end(), [&](const auto& a, const auto& b) { return criterion(a) < criterion(b); });
@@ -263,10 +262,11 @@ PeakFit fit_peak(const Histogram& histogram, const PeakModel& start) {
                 .shoulder = average([](const PeakFit& fit) { return fit.model.shoulder; }),
                 .constant = average([](const PeakFit& fit) { return fit.model.constant; })};
   const auto estimate = [&](core::Estimate PeakFit::*of, double value) {
-    (mean.*of).value = value;
-    (mean.*of).error = std::sqrt(average([&](const PeakFit& fit) {
-      return std::norm(std::complex((fit.*of).error, (fit.*of).value - value));
-    }));
+    const auto squared = [&](const PeakFit& fit) {
+      const core::Estimate& one = fit.*of;
+      return one.error * one.error + (one.value - value) * (one.value - value);
+    };
+    mean.*of = {value, std::sqrt(average(squared))};
   };
   estimate(&PeakFit::position, mean.model.position);
   estimate(&PeakFit::sigma, mean.model.sigma);

@@ -50,10 +50,10 @@ struct PeakFit {
 PeakFit fit_peak(const Histogram& histogram, const PeakModel& start, PeakBackground background);
 
 /// Mean of the fits with each background, whose parameters have the weights exp(-BIC / 2), with BIC =
-/// deviance + parameters ln(pulses) (G. Schwarz 1978, cited from memory; weights as Program MARK states them
-/// under "QAICc Weight"): unlike the choice of one background, it follows the counts without steps.
-/// Background is that of the largest weight. Errors include the differences of the fits. Not converged when
-/// no fit is.
+/// deviance + parameters ln(pulses) (G. Schwarz 1978, as stated by Wikipedia, "Bayesian information
+/// criterion"; weights as Program MARK states them under "QAICc Weight"): unlike the choice of one
+/// background, it follows the counts without steps. Background is that of the largest weight. Errors include
+/// the differences of the fits. Not converged when no fit is.
 PeakFit fit_peak(const Histogram& histogram, const PeakModel& start);
 
 }  // namespace scintray::analysis
