@@ -68,6 +68,8 @@ NUMBERS = {'17/400': '1/3', '"$SLURM_ARRAY_TASK_ID/400"': '2/3', '{}/400': '3/3'
            # Fits of one field, tables of few rays, a run of few photons.
            '--seeds 5': '--seeds 1', 'table stack lso': 'table stack --rays 100 lso',
            'run wrapped.toml': 'run wrapped.toml --photons 20000',
+           # A list of a gigabyte and more.
+           '--photons 1001000000': '--photons 1001',
            # Maps of half a minute each, and their time.
            'time scintray': 'scintray', '--photons 12000': '--photons 20', '--channel-photons 60000': '--channel-photons 200',
            'module_map.h5 --shard': 'module_map.h5 --photons 20 --shard'}

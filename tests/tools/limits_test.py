@@ -14,7 +14,7 @@ import callgrind_file  # noqa: E402
 import report  # noqa: E402
 import rows  # noqa: E402
 import version_scenes  # noqa: E402
-from bench_program import KERNEL, BenchProgram, Counts, SceneCounts  # noqa: E402
+from bench_program import KERNEL, RANDOM, SINGLE, TRACE, VECTORS, BenchProgram, Counts, SceneCounts  # noqa: E402
 
 # A function with an inlined line, that calls another one twice; then names by their numbers alone.
 FILE = '''# callgrind format
@@ -59,7 +59,9 @@ def read(text):
 
 
 def figures(ns, before_ns, outside=60.0, factor=4.0):
-    counts = SceneCounts(5.0, Counts(100.0, 20.0, 10.0, 1.0), Counts(100.0 - outside), {'emission': Counts(outside)})
+    kernels = 100.0 - outside
+    counts = SceneCounts(5.0, Counts(100.0, 20.0, 10.0, 1.0), Counts(kernels), {'emission': Counts(outside)},
+                         {VECTORS: 0.2 * kernels, RANDOM: 0.05 * kernels, SINGLE: 0.75 * kernels})
     return report.Figures(rows.Row('scene', factor, 1), counts, {4: ns}, {}, report.Before(200.0, before_ns))
 
 
@@ -88,6 +90,22 @@ class Limits(unittest.TestCase):
         for name in ('scintray::transport::SurfaceLanes::enter(unsigned int)', 'scintray::transport::propagate_lanes(int)'):
             self.assertFalse(KERNEL.search(name), name)
 
+    def test_what_is_counted_is_found_by_its_name_whatever_its_parameters(self):
+        names = ('0000 t std::_Function_handler<void (), bench::Workload::trace(int) const::{lambda()#1}>::_M_invoke()\n'
+                 '0001 t scintray::bench::Workload::trace(unsigned long, int) const [clone .cold]\n'
+                 '0002 T scintray::bench::Workload::trace(unsigned long, int, std::optional<int>) const\n')
+        self.assertEqual(TRACE.findall(names), ['scintray::bench::Workload::trace(unsigned long, int, std::optional<int>) const'])
+
+    def test_kernels_are_divided_by_the_files_of_their_lines(self):
+        program = BenchProgram('/bin/scintray_bench')
+        program.ask = lambda request: {'kinds': ['propagation'] * len(request['kinds_of'])}
+        counted = {callgrind_file.Place('/bin/scintray_bench', file, 'LanePasses<int>::run()'): {'Ir': count}
+                   for file, count in (('/usr/lib/gcc/x86_64-linux-gnu/12/include/avx2intrin.h', 10), ('/usr/include/xsimd/a.hpp', 20),
+                                       ('/x/src/scintray/core/philox_laws.hpp', 40), ('/x/src/scintray/optics/table_laws.hpp', 80))}
+        result = program.attributed(counted, 10, 5.0)
+        self.assertEqual(result.in_kernels, {VECTORS: 3.0, RANDOM: 4.0, SINGLE: 8.0})
+        self.assertEqual(result.kernels.instructions, 15.0)
+
     def test_counts_go_to_the_kinds_that_the_program_says(self):
         program = BenchProgram('/bin/scintray_bench')
         asked = []
@@ -109,6 +127,9 @@ class Limits(unittest.TestCase):
         # A quarter of 200 leaves 50 instructions, less than the 60 outside of the kernels.
         self.assertEqual(report.conclusion(figures(20.0, 40.0)), 'what is not in kernels takes 1.20 of them')
         self.assertEqual(report.conclusion(figures(20.0, 40.0, outside=30.0)), 'kernels in 20 in place of 70')
+        # 15 are left for kernels, a quarter of whose 90 is in vectors or Philox.
+        self.assertEqual(report.conclusion(figures(20.0, 40.0, outside=10.0, factor=8.0)),
+                         'vectors and Philox alone take 1.50 of what is left for kernels')
         alone = figures(20.0, 40.0, outside=100.0)
         alone.counts.by_kind['ray query'] = Counts(25.0)
         self.assertEqual(report.conclusion(alone), 'no kernels; the ray query alone takes 0.50 of them')

@@ -93,35 +93,48 @@ struct TableExit {
   float polar, azimuth;
 };
 
-/// Interpolated between quantiles, and between the nodes of an interval.
-/// @param share  of share_of()
+/// Where the quantiles of an exit are. Known before they are read, so that those of several photons can be
+/// fetched at once.
+struct TableCell {
+  const float *polar_low, *polar_high;  ///< at the lower and the higher node
+  const std::uint16_t *azimuth_low, *azimuth_high;
+  float polar_part, azimuth_part;  ///< position within the bins
+};
+
 /// @param way    0: transmitted, 1: reflected
 /// @param polar_level, azimuth_level  from 0 to 1
-[[gnu::always_inline]] inline TableExit table_exit(const TableView& table, const TableInterval& interval,
-                                                   double share, int way, double polar_level,
-                                                   double azimuth_level) {
+[[gnu::always_inline]] inline TableCell table_cell(const TableView& table, const TableInterval& interval,
+                                                   int way, double polar_level, double azimuth_level) {
   constexpr std::size_t kRowEnds = kAzimuthBins + 1;
   const double polar_at = polar_level * kPolarBins, azimuth_at = azimuth_level * kAzimuthBins;
   int polar_bin = static_cast<int>(polar_at), azimuth_bin = static_cast<int>(azimuth_at);
   if (polar_bin > kPolarBins - 1) polar_bin = kPolarBins - 1;
   if (azimuth_bin > kAzimuthBins - 1) azimuth_bin = kAzimuthBins - 1;
-  const auto polar_part = static_cast<float>(polar_at - polar_bin);
-  const auto azimuth_part = static_cast<float>(azimuth_at - azimuth_bin);
-  const auto part = static_cast<float>(share);
   const auto node = static_cast<std::size_t>(&interval - table.intervals);
   const std::size_t row = static_cast<std::size_t>(polar_bin) * table.nodes + node;
   const std::size_t low = row + interval.low[way], high = row + interval.high[way];
-
-  const float* const polar = table.polar[way];
-  const float low_polar = polar[low] + polar_part * (polar[low + table.nodes] - polar[low]);
-  const float high_polar = polar[high] + polar_part * (polar[high + table.nodes] - polar[high]);
   const std::uint16_t* const azimuth = table.azimuth[way] + static_cast<std::size_t>(azimuth_bin);
-  const std::uint16_t* const of_low = azimuth + low * kRowEnds;
-  const std::uint16_t* const of_high = azimuth + high * kRowEnds;
-  const auto low_first = static_cast<float>(of_low[0]), low_second = static_cast<float>(of_low[1]);
-  const auto high_first = static_cast<float>(of_high[0]), high_second = static_cast<float>(of_high[1]);
-  const float low_azimuth = low_first + azimuth_part * (low_second - low_first);
-  const float high_azimuth = high_first + azimuth_part * (high_second - high_first);
+  return {table.polar[way] + low,
+          table.polar[way] + high,
+          azimuth + low * kRowEnds,
+          azimuth + high * kRowEnds,
+          static_cast<float>(polar_at - polar_bin),
+          static_cast<float>(azimuth_at - azimuth_bin)};
+}
+
+/// Interpolated between quantiles, and between the nodes of an interval.
+/// @param share  of share_of()
+[[gnu::always_inline]] inline TableExit table_exit(const TableView& table, const TableCell& at,
+                                                   double share) {
+  const auto part = static_cast<float>(share);
+  const float low_polar = at.polar_low[0] + at.polar_part * (at.polar_low[table.nodes] - at.polar_low[0]);
+  const float high_polar = at.polar_high[0] + at.polar_part * (at.polar_high[table.nodes] - at.polar_high[0]);
+  const auto low_first = static_cast<float>(at.azimuth_low[0]),
+             low_second = static_cast<float>(at.azimuth_low[1]);
+  const auto high_first = static_cast<float>(at.azimuth_high[0]),
+             high_second = static_cast<float>(at.azimuth_high[1]);
+  const float low_azimuth = low_first + at.azimuth_part * (low_second - low_first);
+  const float high_azimuth = high_first + at.azimuth_part * (high_second - high_first);
   return {low_polar + part * (high_polar - low_polar),
           table.azimuth_step * (low_azimuth + part * (high_azimuth - low_azimuth) - table.azimuth_zero)};
 }

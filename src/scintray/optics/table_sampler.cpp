@@ -119,8 +119,10 @@ ExitAngles TableSampler::sample(const Place& place, bool reflected, core::Rng& r
   const std::uint64_t bits = rng.bits();
   const double u = core::uniform_of<double>(bits);
   const bool folded = kind_ == AzimuthKind::folded;
-  const TableExit exit = table_exit(view(), *place.interval_, place.share_, reflected ? 1 : 0, polar_level,
+  const TableView numbers = view();
+  const TableCell cell = table_cell(numbers, *place.interval_, reflected ? 1 : 0, polar_level,
                                     folded ? level_of_one_tail(u) : level_of_two_tails(u));
+  const TableExit exit = table_exit(numbers, cell, place.share_);
   // A bit that u does not use: either side of the plane of incidence.
   return {exit.polar, folded && (bits & 1) != 0 ? -exit.azimuth : exit.azimuth};
 }

@@ -9,14 +9,15 @@ from pathlib import Path
 
 import callgrind_file
 
-# Counted is what this function does, in a file for each call of it.
-TRACE = 'scintray::bench::Workload::trace(unsigned long, int) const'
+# Counted is what this function does, in a file for each call of it; callgrind wants it with its parameters.
+TRACE = re.compile(r' T (scintray::bench::Workload::trace\(.*\) const)$', re.MULTILINE)
 CALLGRIND = ['valgrind', '--tool=callgrind', '--cache-sim=yes', '--branch-sim=yes']
-# Building a scene is not counted, which is many times faster so, and processes that read its tables keep to their limits.
-COUNT_LATER = ['--instr-atstart=no', f'--toggle-collect={TRACE}', f'--dump-after={TRACE}']
 FIRST_COUNTED = 2  # file of the first trace that is compared: those before it fill caches
 # Functions of the kernels that propagate photons in lanes.
 KERNEL = re.compile(r'\bLane(?:Passes|Propagation)<|\b(?:propagate|run)_lanes_(?:in_body_)?\d')
+# What an instruction in a kernel does, by the source file of its line; the first that matches.
+VECTORS, RANDOM, SINGLE = 'vectors', 'Philox', 'one lane'
+IN_KERNELS = ((re.compile(r'intrin\.h$|/xsimd/'), VECTORS), (re.compile(r'/philox_laws\.hpp$'), RANDOM), (re.compile(''), SINGLE))
 
 
 class Failed(Exception):
@@ -51,12 +52,13 @@ class SceneCounts:
     whole: Counts
     kernels: Counts
     by_kind: dict  # of what is not in the kernels
+    in_kernels: dict  # instructions of the kernels by what they do
 
     @classmethod
     def of_plain(cls, plain):
         """From what dataclasses.asdict makes of it."""
         by_kind = {kind: Counts(**counts) for kind, counts in plain['by_kind'].items()}
-        return cls(plain['segments_per_photon'], Counts(**plain['whole']), Counts(**plain['kernels']), by_kind)
+        return cls(plain['segments_per_photon'], Counts(**plain['whole']), Counts(**plain['kernels']), by_kind, plain['in_kernels'])
 
 
 class Conversation:
@@ -89,6 +91,15 @@ class Conversation:
         return answer
 
 
+def count_later(program):
+    """Building a scene is not counted, which is many times faster so, and processes that read its tables keep to their limits."""
+    symbols = subprocess.run(['nm', '-C', str(program)], capture_output=True, text=True, check=True).stdout
+    found = TRACE.search(symbols)
+    if not found:
+        raise Failed(f'{program} has no function that traces a workload, of which callgrind could count the work')
+    return ['--instr-atstart=no', f'--toggle-collect={found[1]}', f'--dump-after={found[1]}']
+
+
 class BenchProgram:
     def __init__(self, path):
         self.path = Path(path)
@@ -119,7 +130,7 @@ class BenchProgram:
         """Counts of a scene: the difference between 3 x work and work photons, or events, after as many that fill caches."""
         with tempfile.TemporaryDirectory() as folder:
             output = Path(folder) / 'counts'
-            with Conversation([*CALLGRIND, *COUNT_LATER, f'--callgrind-out-file={output}', str(self.path), '--serve']) as talk:
+            with Conversation([*CALLGRIND, *count_later(self.path), f'--callgrind-out-file={output}', str(self.path), '--serve']) as talk:
                 def trace(photons):
                     return talk.answer({'scene': scene, 'lane_width': lane_width, 'work': photons, 'threads': 1})
                 trace(work)
@@ -139,12 +150,14 @@ class BenchProgram:
         own = self.path.name
         kinds = self.ask({'kinds_of': [['' if Path(place.object).name == own else Path(place.object).name,
                                          place.file, place.function] for place in places]})['kinds']
-        result = SceneCounts(segments_per_photon, Counts(), Counts(), {})
+        result = SceneCounts(segments_per_photon, Counts(), Counts(), {}, dict.fromkeys((VECTORS, RANDOM, SINGLE), 0.0))
         for place, kind in zip(places, kinds):
             counts = Counts.of(counted[place]) / segments
             result.whole += counts
             if KERNEL.search(place.function):
                 result.kernels += counts
+                does = next(does for pattern, does in IN_KERNELS if pattern.search(place.file))
+                result.in_kernels[does] += counts.instructions
             else:
                 result.by_kind[kind] = result.by_kind.get(kind, Counts()) + counts
         return result

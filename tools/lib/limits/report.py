@@ -3,7 +3,7 @@
 import dataclasses
 
 import rows
-from bench_program import SceneCounts
+from bench_program import RANDOM, SINGLE, VECTORS, SceneCounts
 
 KINDS = ('ray query', 'propagation', 'surface', 'random', 'elementary', 'emission', 'tally', 'readout', 'other')  # the order
 COUNTED_LANES = 4  # valgrind knows no AVX-512
@@ -58,6 +58,24 @@ def table_of_counts(measured):
     return table(['scene', 'segments a photon', 'instructions', 'loads', 'stores', 'wrong predictions', 'kernels', *kinds], lines)
 
 
+def has_kernels(counts):
+    return counts.kernels.instructions >= FEW * counts.whole.instructions
+
+
+def table_of_kernels(measured):
+    lines = []
+    for figures in measured:
+        counts = figures.counts
+        if not has_kernels(counts):
+            continue
+        left = instructions_left(figures)
+        outside = counts.whole.instructions - counts.kernels.instructions
+        lines.append([figures.row.scene, number(counts.kernels.instructions),
+                      *(number(counts.in_kernels[does]) for does in (VECTORS, RANDOM, SINGLE)),
+                      number(None if left is None else max(0.0, left - outside))])
+    return table(['scene', 'kernels', 'in vectors', 'Philox', 'one lane after another', 'left for kernels'], lines)
+
+
 def table_of_times(measured, clock):
     lines = []
     lanes = sorted({width for figures in measured for width in figures.nanoseconds})
@@ -93,10 +111,13 @@ def conclusion(figures):
     if figures.nanoseconds[COUNTED_LANES] <= required:
         return 'met'
     outside = counts.whole.instructions - counts.kernels.instructions
-    if counts.kernels.instructions < FEW * counts.whole.instructions:
+    if not has_kernels(counts):
         return f'no kernels; the ray query alone takes {counts.by_kind["ray query"].instructions / left:.2f} of them'
     if outside > left:
         return f'what is not in kernels takes {outside / left:.2f} of them'
+    needed = counts.in_kernels[VECTORS] + counts.in_kernels[RANDOM]
+    if needed > left - outside:
+        return f'vectors and Philox alone take {needed / (left - outside):.2f} of what is left for kernels'
     return f'kernels in {left - outside:.0f} in place of {counts.kernels.instructions:.0f}'
 
 
@@ -122,7 +143,8 @@ def text_of(measured, machine, version):
     clock = machine['cycles_per_ns']
     parts = [f'{version}, {machine["cpu"]}, {clock:.2f} cycles a ns. All a segment, one thread; counts and rates of '
              f'{COUNTED_LANES} lanes.\n',
-             table_of_counts(measured), table_of_times(measured, clock), table_of_factors(measured)]
+             table_of_counts(measured), table_of_kernels(measured), table_of_times(measured, clock),
+             table_of_factors(measured)]
     if any(figures.row.chained for figures in measured):
         parts.append('The chain, cycles of a vector: ' +
                      ', '.join(f'{what} {cycles}' for what, cycles in rows.chain(COUNTED_LANES)) + '.\n')

@@ -1,5 +1,6 @@
 #pragma once
-/// Loads and stores of four numbers that follow each other in memory, at a place of its own for each lane.
+/// Loads and stores of four numbers that follow each other in memory, and loads of single ones, at a place of
+/// its own for each lane.
 
 #include "scintray/transport/detail/lanes/lane_number.hpp"
 
@@ -101,6 +102,25 @@ void store_fours(const LaneBitsPair<Arch>* words, std::uint64_t* const* first, s
   const LaneBits<Arch> b[] = {words[0].b, words[1].b, words[2].b, words[3].b};
   store_fours(a, first, second);
   store_fours(b, first + kHalf, second + kHalf);
+}
+/// Without a way through memory: the load of a vector waits for the stores of its parts.
+static inline void load_ones(const double* const* at, LaneReal<xsimd::sse2>& to) {
+  to.lanes = _mm_set_pd(*at[1], *at[0]);
+}
+#ifdef __AVX2__
+static inline void load_ones(const double* const* at, LaneReal<xsimd::avx2>& to) {
+  to.lanes = _mm256_set_pd(*at[3], *at[2], *at[1], *at[0]);
+}
+#endif
+#ifdef __AVX512F__
+static inline void load_ones(const double* const* at, LaneReal<xsimd::avx512f>& to) {
+  to.lanes = _mm512_set_pd(*at[7], *at[6], *at[5], *at[4], *at[3], *at[2], *at[1], *at[0]);
+}
+#endif
+template <typename Arch>
+void load_ones(const double* const* at, LaneRealPair<Arch>& to) {
+  load_ones(at, to.a);
+  load_ones(at + LaneReal<Arch>::kWidth, to.b);
 }
 template <typename Arch>
 void load_fours(const double* const* at, LaneFours<LaneRealPair<Arch>>& to) {

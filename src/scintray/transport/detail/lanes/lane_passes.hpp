@@ -297,11 +297,20 @@ class LanePasses : LanePhotons<Real, kDraws> {
     alignas(64) double share[kWidth], polar[kWidth], azimuth[kWidth];
     shares.store(share), polar_levels.store(polar), azimuth_levels.store(azimuth);
     const unsigned lanes = lanes_of(leaves), ways = lanes_of(reflected);
+    optics::TableCell cells[kWidth];
+    // What is seldom in the nearest cache is fetched for all lanes before the first waits for it.
     for (std::size_t lane = 0; lane < kWidth; ++lane) {
       if ((lanes >> lane & 1) == 0) continue;
-      const optics::TableExit exit =
-          optics::table_exit(*found.view[lane], *found.interval[lane], share[lane],
-                             static_cast<int>(ways >> lane & 1), polar[lane], azimuth[lane]);
+      cells[lane] = optics::table_cell(*found.view[lane], *found.interval[lane],
+                                       static_cast<int>(ways >> lane & 1), polar[lane], azimuth[lane]);
+      __builtin_prefetch(cells[lane].azimuth_low);
+      __builtin_prefetch(cells[lane].azimuth_high);
+      __builtin_prefetch(cells[lane].polar_low);
+      __builtin_prefetch(cells[lane].polar_low + found.view[lane]->nodes);
+    }
+    for (std::size_t lane = 0; lane < kWidth; ++lane) {
+      if ((lanes >> lane & 1) == 0) continue;
+      const optics::TableExit exit = optics::table_exit(*found.view[lane], cells[lane], share[lane]);
       polar[lane] = static_cast<double>(exit.polar);
       azimuth[lane] = static_cast<double>(exit.azimuth);
     }

@@ -58,20 +58,15 @@ class LanePhotons {
   };
   /// The next ones, not yet counted as drawn.
   Random next_numbers() const {
-    const double* first[kWidth];
-    for (std::size_t lane = 0; lane < kWidth; ++lane)
-      first[lane] = reinterpret_cast<const double*>(pool_.numbers[at_ + lane]) +
-                    pool_.drawn[at_ + lane] % LanePool::kNumbers;
     LaneFours<Real> fours;
-    load_fours(first, fours);
+    load_fours(next_places().at, fours);
     return {{bits_of(fours.of[0]), bits_of(fours.of[1]), bits_of(fours.of[2]), bits_of(fours.of[3])}};
   }
   /// The next one, likewise.
   Bits next_number() const {
-    alignas(64) std::uint64_t of[kWidth];
-    for (std::size_t lane = 0; lane < kWidth; ++lane)
-      of[lane] = pool_.numbers[at_ + lane][pool_.drawn[at_ + lane] % LanePool::kNumbers];
-    return Bits::load(of);
+    Real ones;
+    load_ones(next_places().at, ones);
+    return bits_of(ones);
   }
   /// Counts numbers as drawn, whole ones from 0 to 7.
   void count_drawn(const Real& numbers) { store(pool_.drawn, load(pool_.drawn) + whole(numbers)); }
@@ -80,6 +75,17 @@ class LanePhotons {
   std::size_t at_ = 0;  ///< the first photon of the vector
 
  private:
+  struct Places {
+    const double* at[kWidth];
+  };
+  /// Where the next random number of each photon is.
+  Places next_places() const {
+    Places places;
+    for (std::size_t lane = 0; lane < kWidth; ++lane)
+      places.at[lane] = reinterpret_cast<const double*>(pool_.numbers[at_ + lane]) +
+                        pool_.drawn[at_ + lane] % LanePool::kNumbers;
+    return places;
+  }
   /// A whole number from 0 to 7 as bits.
   static Bits whole(const Real& number) { return bits_of(number + Real(0x1.0p52)) & Bits(7); }
 
