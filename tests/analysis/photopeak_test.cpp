@@ -105,6 +105,45 @@ TEST_CASE("Pulls of a Gaussian on a shoulder are normal") {
   CHECK(refused == 0);
 }
 
+TEST_CASE("A width that few pulses leave uncertain is not trusted; pulls of the others are normal") {
+  // Spectra of the crystals of tools/lib/pulls/sipm.toml: a wide peak, and a few pulses of less energy.
+  std::vector<Photopeak> trusted;
+  int uncertain = 0;
+  double largest = 0.0;
+  for (std::uint64_t toy = 0; toy < 300; ++toy) {
+    Rng rng = toy_rng(14, toy);
+    std::vector<double> values = pulses(220, 160.0, 60, 400.0, rng);
+    std::erase_if(values, [](double value) { return value <= 0.0; });
+    const Photopeak peak = fit_photopeak(values);
+    if (!peak.has_numbers()) continue;
+    CHECK(peak.locates_peak());
+    if (peak.status == PeakStatus::trusted) {
+      trusted.push_back(peak);
+      largest = std::max(largest, peak.fit.sigma.error / peak.fit.sigma.value);
+      continue;
+    }
+    ++uncertain;
+    CHECK(peak.status == PeakStatus::uncertain_width);
+    CHECK(contains(peak.reason, "cannot be distinguished"));
+    CHECK(peak.fit.sigma.error > 0.125 * peak.fit.sigma.value);
+  }
+  CHECK(uncertain > 10);
+  CHECK(uncertain < 100);
+  CHECK(largest < 0.126);
+  double sigma = 0.0, resolution = 0.0;
+  for (const Photopeak& peak : trusted) {
+    sigma += peak.fit.sigma.value / static_cast<double>(trusted.size());
+    resolution += peak.fit.relative_fwhm.value / static_cast<double>(trusted.size());
+  }
+  Pulls of_sigma, of_resolution;
+  for (const Photopeak& peak : trusted) {
+    of_sigma.add(peak.fit.sigma, sigma);
+    of_resolution.add(peak.fit.relative_fwhm, resolution);
+  }
+  check_pulls(of_sigma);
+  check_pulls(of_resolution);
+}
+
 TEST_CASE("A shoulder that is left out pulls the peak down: the fit distinguishes the models") {
   Rng rng = toy_rng(5);
   const std::vector<double> values = pulses(20'000, 25.0, 20'000, 250.0, rng);

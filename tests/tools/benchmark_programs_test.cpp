@@ -1,6 +1,7 @@
 // Two benchmark programs that trace in turns, and the lines that they exchange.
 
 #include <doctest/doctest.h>
+#include <sched.h>
 
 #include <optional>
 #include <sstream>
@@ -120,6 +121,19 @@ TEST_CASE("Programs are compared at each lane width that is asked for") {
     CHECK(pair.same_photons);
   }
   CHECK(pairs.back().turn.lane_width == settings.lane_widths.back());
+}
+
+TEST_CASE("A program beside this one runs on the processor that is chosen for it") {
+  ChildProgram program({"sh", "-c", "while read line; do grep Cpus_allowed_list /proc/self/status; done"});
+  cpu_set_t mine;
+  REQUIRE(sched_getaffinity(0, sizeof mine, &mine) == 0);
+  for (int processor = 0; processor < CPU_SETSIZE; ++processor) {
+    if (!CPU_ISSET(static_cast<std::size_t>(processor), &mine)) continue;
+    program.keep_on(processor);
+    program.write_line("which");
+    CHECK(program.read_line() == "Cpus_allowed_list:\t" + std::to_string(processor));
+  }
+  CHECK_THROWS_AS(program.keep_on(CPU_SETSIZE - 1), core::SystemError);
 }
 
 TEST_CASE("A program beside this one reads and writes lines, and one that does not exist is an error") {

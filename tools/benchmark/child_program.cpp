@@ -1,6 +1,7 @@
 #include "child_program.hpp"
 
 #include <fcntl.h>
+#include <sched.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -60,6 +61,14 @@ ChildProgram::~ChildProgram() {
   int status = 0;
   while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
   }
+}
+
+void ChildProgram::keep_on(int processor) {
+  cpu_set_t only;
+  CPU_ZERO(&only);
+  CPU_SET(static_cast<std::size_t>(processor), &only);
+  if (::sched_setaffinity(process_, sizeof only, &only) != 0)
+    throw core::SystemError(std::string("cannot choose a processor: ") + std::strerror(errno));
 }
 
 void ChildProgram::write_line(const std::string& line) {

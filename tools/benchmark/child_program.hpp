@@ -21,6 +21,10 @@ class ChildProgram {
   ChildProgram(const ChildProgram&) = delete;
   ChildProgram& operator=(const ChildProgram&) = delete;
 
+  /// Lets its main thread, and those that it starts from now on, run on this processor only.
+  /// @throws SystemError when that is not one that it may run on
+  void keep_on(int processor);
+
   /// Writes a line to its input. @throws SystemError when it has ended
   void write_line(const std::string& line);
   /// The next line of its output, without the line's end; nothing when it has ended.

@@ -1,6 +1,7 @@
 #include "pairing.hpp"
 
 #include <fmt/format.h>
+#include <sched.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -26,6 +27,13 @@ class Pair {
  public:
   Pair(const std::string& self, const std::string& other, std::string scene)
       : scene_(std::move(scene)), mine_({self, "--serve"}), other_({other, "--serve"}) {}
+
+  /// For turns of one thread: processors of a shared machine differ for minutes, by what its other users do.
+  void share_processor() {
+    const int here = std::max(0, ::sched_getcpu());
+    mine_.keep_on(here);
+    other_.keep_on(here);
+  }
 
   /// Work that takes this time; both programs have built the scene and are warm.
   std::uint64_t calibrate(double seconds) {
@@ -86,6 +94,8 @@ std::vector<PairedFigures> pair_programs(const std::string& self, const std::str
   for (const BenchScene& scene : scenes) {
     try {
       Pair pair(self, other, scene.name);
+      if (std::all_of(turns.begin(), turns.end(), [](const Turn& turn) { return turn.threads == 1; }))
+        pair.share_processor();
       const double turn_s = settings.seconds / (2.0 * settings.rounds * static_cast<double>(turns.size()));
       const std::uint64_t work = pair.calibrate(turn_s);
       for (const Turn& turn : turns) add(pair.measure(work, turn, settings.rounds));

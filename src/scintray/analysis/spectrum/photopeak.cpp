@@ -23,6 +23,10 @@ constexpr double kBelow = 3.0, kAbove = 4.0, kLeastBelow = 1.5, kFlanks = 1.6;
 constexpr double kPeakBinsPerSigma = 4.0;
 constexpr double kPoor = 1e-4;
 constexpr double kSmallMisfit = 0.01;
+/// Relative error of sigma from which on its errors are no longer those of a normal distribution: in some
+/// runs a shoulder has then taken over a side of the peak, and sigma is up to four of its errors too small
+/// (docs/decisions.md).
+constexpr double kUncertainWidth = 0.125;
 constexpr int kMostPeakRounds = 8;
 /// Height of a continuum 3 sigma below the peak over the valley, in heights of the peak, from which on it is
 /// not fitted.
@@ -258,6 +262,8 @@ const char* status_name(PeakStatus status) {
       return "peak at the edge";
     case PeakStatus::not_converged:
       return "the fit did not converge";
+    case PeakStatus::uncertain_width:
+      return "uncertain width";
     case PeakStatus::poor_fit:
       return "poor fit";
   }
@@ -271,7 +277,8 @@ double Photopeak::misfit() const {
 }
 
 bool Photopeak::locates_peak() const {
-  return status == PeakStatus::trusted || (status == PeakStatus::poor_fit && misfit() < kSmallMisfit);
+  return status == PeakStatus::trusted || status == PeakStatus::uncertain_width ||
+         (status == PeakStatus::poor_fit && misfit() < kSmallMisfit);
 }
 
 Photopeak fit_photopeak(std::span<const double> values, const PhotopeakOptions& options) {
@@ -322,6 +329,13 @@ Photopeak fit_photopeak(std::span<const double> values, const PhotopeakOptions& 
             "chi-square {:.1f} for {:.0f} degrees of freedom (p {:.1g}): the peak is not a Gaussian on "
             "a shoulder",
             peak.fit.goodness.chi2, peak.fit.goodness.degrees, peak.fit.goodness.p_value));
+  if (peak.fit.sigma.error > kUncertainWidth * model.sigma)
+    return with_status(
+        peak, PeakStatus::uncertain_width,
+        fmt::format(
+            "the width is known to {:.0f} %, and has to be to {:.1f} %: peak and background cannot be "
+            "distinguished with {:.0f} pulses",
+            100.0 * peak.fit.sigma.error / model.sigma, 100.0 * kUncertainWidth, peak.fitted.total()));
   return with_status(peak, PeakStatus::trusted, "");
 }
 

@@ -17,7 +17,9 @@ enum class PeakStatus {
   no_peak,        ///< no peak above the continuum
   edge_of_range,  ///< the peak is truncated by the end of the data or of the window
   not_converged,
-  poor_fit,  ///< the shape differs (p below 1e-4, chosen): position and width are only descriptive
+  uncertain_width,  ///< peak and background cannot be distinguished: sigma is known to an eighth only, or
+                    ///< worse
+  poor_fit,         ///< the shape differs (p below 1e-4, chosen): position and width are only descriptive
 };
 /// Text of a status: "trusted", "too few events", ...
 const char* status_name(PeakStatus status);
@@ -41,8 +43,9 @@ struct Photopeak {
   /// independent of the number of pulses (the mean square contingency, H. Cramer 1946, Mathematical Methods
   /// of Statistics). 0 without a fit.
   double misfit() const;
-  /// Usable for selecting pulses and for depth curves: trusted, or a poor fit only because many pulses reveal
-  /// a small difference (misfit below 0.01, chosen: a tenth in the root mean square).
+  /// Usable for selecting pulses and for depth curves: trusted; or of uncertain width, as the position is
+  /// still known to a fraction of it; or a poor fit only because many pulses reveal a small difference
+  /// (misfit below 0.01, chosen: a tenth in the root mean square).
   bool locates_peak() const;
 };
 
