@@ -8,6 +8,7 @@ import tempfile
 from pathlib import Path
 
 import callgrind_file
+from bench_figures import Failed, figures_of
 
 # Counted is what this function does, in a file for each call of it; callgrind wants it with its parameters.
 TRACE = re.compile(r' T (scintray::bench::Workload::trace\(.*\) const)$', re.MULTILINE)
@@ -15,13 +16,9 @@ CALLGRIND = ['valgrind', '--tool=callgrind', '--cache-sim=yes', '--branch-sim=ye
 FIRST_COUNTED = 2  # file of the first trace that is compared: those before it fill caches
 # Functions of the kernels that propagate photons in lanes.
 KERNEL = re.compile(r'\bLane(?:Passes|Propagation)<|\b(?:propagate|run)_lanes_(?:in_body_)?\d')
-# What an instruction in a kernel does, by the source file of its line; the first that matches.
+# What an instruction in a kernel does, by the source file of its line; all else is done for one lane after another.
 VECTORS, RANDOM, SINGLE = 'vectors', 'Philox', 'one lane'
-IN_KERNELS = ((re.compile(r'intrin\.h$|/xsimd/'), VECTORS), (re.compile(r'/philox_laws\.hpp$'), RANDOM), (re.compile(''), SINGLE))
-
-
-class Failed(Exception):
-    """Why a program gave no figures."""
+IN_KERNELS = ((re.compile(r'intrin\.h$|/xsimd/'), VECTORS), (re.compile(r'/philox_laws\.hpp$'), RANDOM))
 
 
 @dataclasses.dataclass
@@ -114,15 +111,7 @@ class BenchProgram:
 
     def nanoseconds(self, scenes, lane_width, seconds):
         """Processor time a segment (ns) by scene, on one thread."""
-        with tempfile.TemporaryDirectory() as folder:
-            output = Path(folder) / 'figures.json'
-            words = [word for scene in scenes for word in ('--scene', scene)]
-            done = subprocess.run([str(self.path), *words, '--lane-width', str(lane_width), '--threads', '1', '--no-profile',
-                                   '--seconds', str(seconds), '--json', str(output)],
-                                  capture_output=True, text=True, check=False)
-            if done.returncode != 0:
-                raise Failed(done.stderr[-500:])
-            figures = json.loads(output.read_text(encoding='utf-8'))
+        figures = figures_of(self.path, scenes, '--lane-width', lane_width, '--threads', 1, '--seconds', seconds)
         self.version = f'ScintRay {figures["version"]}'
         return {scene['name']: 1e9 / scene['runs'][0]['segments_per_s']['median'] for scene in figures['scenes']}
 
@@ -156,7 +145,7 @@ class BenchProgram:
             result.whole += counts
             if KERNEL.search(place.function):
                 result.kernels += counts
-                does = next(does for pattern, does in IN_KERNELS if pattern.search(place.file))
+                does = next((does for pattern, does in IN_KERNELS if pattern.search(place.file)), SINGLE)
                 result.in_kernels[does] += counts.instructions
             else:
                 result.by_kind[kind] = result.by_kind.get(kind, Counts()) + counts
