@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -89,6 +90,40 @@ TEST_CASE("Nothing is sampled where the spectrum is zero") {
     const double x = sampler.sample(i / 1000.0);
     CHECK((x <= 1.0 || x >= 2.0));
   }
+}
+
+TEST_CASE("The interval of a draw is the one that a search finds") {
+  // Irregular, with intervals of no light, and one that holds half of it; by a plain search the same bits.
+  Rng rng(11, StreamKind::other, 0);
+  std::vector<double> x{300.0}, y{0.0};
+  for (int i = 0; i < 200; ++i) {
+    x.push_back(x.back() + (i % 7 == 0 ? 5.0 : 0.01) * (0.1 + rng.uniform()));
+    y.push_back(i % 5 < 2 ? 0.0 : (i == 103 ? 1000.0 : rng.uniform()));
+  }
+  std::vector<double> below{0.0};
+  for (std::size_t i = 1; i < x.size(); ++i)
+    below.push_back(below.back() + 0.5 * (y[i] + y[i - 1]) * (x[i] - x[i - 1]));
+  const auto by_search = [&](double u) {
+    const double area = u * below.back();
+    auto i = static_cast<std::size_t>(std::upper_bound(below.begin(), below.end(), area) - below.begin());
+    i = std::clamp<std::size_t>(i, 1, x.size() - 1);
+    const double rest = (area - below[i - 1]) / (x[i] - x[i - 1]), step = y[i] - y[i - 1];
+    const double root = std::sqrt(std::max(0.0, y[i - 1] * y[i - 1] + 2.0 * step * rest));
+    const double t = y[i - 1] + root > 0.0 ? 2.0 * rest / (y[i - 1] + root) : 0.0;
+    return x[i - 1] + std::clamp(t, 0.0, 1.0) * (x[i] - x[i - 1]);
+  };
+  const CurveSampler sampler(Curve(x, y));
+  std::vector<double> draws;
+  for (int i = 0; i < 20000; ++i) draws.push_back(rng.uniform());
+  for (const double area : below)
+    for (const double u : {area / below.back(), std::nextafter(area / below.back(), 0.0),
+                           std::nextafter(area / below.back(), 1.0)})
+      if (u < 1.0) draws.push_back(u);
+  for (int step = 0; step < 800; ++step)
+    for (const double u : {step / 800.0, std::nextafter(step / 800.0, 0.0)}) draws.push_back(u);
+  std::size_t same = 0;
+  for (const double u : draws) same += sampler.sample(u) == by_search(u) ? 1 : 0;
+  CHECK(same == draws.size());
 }
 
 TEST_CASE("Sampled wavelengths follow the spectrum") {

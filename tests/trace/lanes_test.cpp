@@ -183,6 +183,27 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text.replace(at, from.size(), to);
 }
 
+/// The wavelengths of the crystal's emission in place of one.
+std::string with_emission(const std::string& scene) {
+  return replaced(scene, "wavelength = \"420 nm\"", "wavelength = \"emission\"");
+}
+
+/// A crystal of a medium with dispersion, three kinds of faces, and the wavelengths of its emission.
+std::string three_surfaces() {
+  const std::string faces = R"([[part.face]]
+name = "top"
+select = { normal = [0, 0, 1] }
+surface = "paint"
+[[part.face]]
+name = "side"
+select = { normal = [1, 0, 0] }
+surface = "two"
+)";
+  std::string scene = with_emission(replaced(two_wavelengths(), "LSO_roncali2013", "LSO"));
+  scene = replaced(scene, "surface = \"two\"", "surface = \"backed\"");
+  return replaced(scene, "[[part.face]]\n", faces + "[[part.face]]\n") + kBacked + kPaint;
+}
+
 /// Light along the normal of two faces with a table, where there is no plane of incidence.
 std::string along_the_normal(const std::string& surface, const std::string& more) {
   return replaced(crystal(surface, more), "photons = 3_000\n", "photons = 3_000\ndirection = [1, 0, 0]\n");
@@ -252,6 +273,11 @@ TEST_CASE("Results and photons are the same to the last bit for every width of t
   SUBCASE("table of two wavelengths, beyond the last") {
     scene = replaced(two_wavelengths(), "wavelength = \"420 nm\"", "wavelength = \"470 nm\"");
   }
+  SUBCASE("table of two wavelengths, between and beyond them") { scene = with_emission(two_wavelengths()); }
+  SUBCASE("facets, a gap and a reflector, wavelengths of the emission") {
+    scene = with_emission(crystal("backed", kBacked));
+  }
+  SUBCASE("facets, paint and a table, wavelengths of the emission") { scene = three_surfaces(); }
   SUBCASE("table, along its normal") { scene = along_the_normal("backed", kTableBacked); }
   SUBCASE("through Embree") { scene = crystal("polished", "[run]\naccelerator = \"embree\"\n"); }
   SUBCASE("rod") { scene = round_crystal(kRod, "6 mm"); }

@@ -22,6 +22,15 @@ BenchScene crystal(const std::string& name, const std::string& shows, const std:
   return {name, shows, "crystal.toml", {{"part.crystal.surface", "\"" + surface + "\""}}};
 }
 
+/// The light of another scene's crystal with the wavelengths of its emission.
+BenchScene with_spectrum(const std::string& name, const std::string& shows, const std::string& surface,
+                         const std::string& relative_to) {
+  BenchScene scene = crystal(name, shows, surface);
+  scene.settings.push_back({"source.wavelength", "\"emission\""});
+  scene.relative_to = relative_to;
+  return scene;
+}
+
 BenchScene embree_crystal(const std::string& name, const std::string& shows, mesh::TriMesh (*mesh)()) {
   return {name, shows, "crystal.toml", {{"run.accelerator", "\"embree\""}}, mesh};
 }
@@ -63,6 +72,10 @@ const std::vector<BenchScene>& scene_list() {
       crystal("painted", "Lambertian reflector on the crystal", "painted"),
       crystal("table_ptfe", "table of a ground surface, air gap, PTFE", "table_ptfe"),
       crystal("height_map", "rays on a ground height map, no table", "ground_on_the_spot"),
+      with_spectrum("unified_spectrum", "facets as in unified, wavelengths of the crystal's emission",
+                    "roncali2013_unified_rough", "unified"),
+      with_spectrum("table_spectrum", "a ground surface tabulated over the wavelengths of the emission",
+                    "lso_ground_30um", "table"),
       {"rod", "polished rod, its wall by formula", "rod.toml", {}, nullptr, "polished"},
       {"plate", "polished plate with 49 exact round holes", "plate.toml", {}, nullptr, "plate_facets"},
       {"plate_facets",

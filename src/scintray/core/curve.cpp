@@ -64,51 +64,66 @@ bool Curve::covers(double low, double high) const {
 double Curve::min_y() const { return *std::min_element(y_.begin(), y_.end()); }
 double Curve::max_y() const { return *std::max_element(y_.begin(), y_.end()); }
 
-CurveSampler::CurveSampler(const Curve& density) : x_(density.x()), y_(density.y()) {
-  for (std::size_t i = 0; i < y_.size(); ++i)
-    if (y_[i] < 0.0)
+CurveSampler::CurveSampler(const Curve& density)
+    : first_x_(density.x().front()), last_x_(density.x().back()), mean_(first_x_) {
+  const std::vector<double>&x = density.x(), &y = density.y();
+  for (std::size_t i = 0; i < y.size(); ++i)
+    if (y[i] < 0.0)
       throw InputError({{},
-                        "a spectrum is negative (" + std::to_string(y_[i]) + ") at " + std::to_string(x_[i]),
+                        "a spectrum is negative (" + std::to_string(y[i]) + ") at " + std::to_string(x[i]),
                         "a spectrum is a density and cannot be negative"});
-  cumulative_.assign(1, 0.0);
-  for (std::size_t i = 1; i < x_.size(); ++i)
-    cumulative_.push_back(cumulative_.back() + 0.5 * (y_[i] + y_[i - 1]) * (x_[i] - x_[i - 1]));
-  if (x_.size() > 1 && !(cumulative_.back() > 0.0))
+  double first_moment = 0.0;
+  for (std::size_t i = 1; i < x.size(); ++i) {
+    const double width = x[i] - x[i - 1];
+    intervals_.push_back({integral_, x[i - 1], width, y[i - 1], y[i] - y[i - 1]});
+    integral_ += 0.5 * (y[i] + y[i - 1]) * width;
+    first_moment += width * ((2.0 * x[i - 1] + x[i]) * y[i - 1] + (x[i - 1] + 2.0 * x[i]) * y[i]) / 6.0;
+  }
+  if (intervals_.empty()) return;
+  if (!(integral_ > 0.0))
     throw InputError({{}, "a spectrum is zero everywhere", "give at least one positive value"});
+  mean_ = first_moment / integral_;
+  constexpr std::size_t kStepsPerInterval = 4;
+  guide_.resize(kStepsPerInterval * intervals_.size());
+  std::uint32_t at = 0;
+  for (std::size_t step = 0; step < guide_.size(); ++step) {
+    const double area = static_cast<double>(step) / static_cast<double>(guide_.size()) * integral_;
+    while (at + 1 < intervals_.size() && intervals_[at + 1].below <= area) ++at;
+    guide_[step] = at;
+  }
+}
+
+/// The last interval that starts at or below an area, which is u times the integral.
+const CurveSampler::Interval& CurveSampler::interval_at(double u, double area) const {
+  const auto step = static_cast<std::size_t>(u * static_cast<double>(guide_.size()));
+  const Interval* at = &intervals_[guide_[std::min(step, guide_.size() - 1)]];
+  while (at > intervals_.data() && at->below > area) --at;  // by rounding, at the start of a step
+  const Interval* const last = &intervals_.back();
+  while (at < last && at[1].below <= area) ++at;
+  return *at;
 }
 
 double CurveSampler::sample(double u) const {
-  if (x_.size() == 1) return x_.front();
-  const double area = u * cumulative_.back();
-  std::size_t i = static_cast<std::size_t>(std::upper_bound(cumulative_.begin(), cumulative_.end(), area) -
-                                           cumulative_.begin());
-  i = std::clamp<std::size_t>(i, 1, x_.size() - 1);
+  if (intervals_.empty()) return first_x_;
+  const double area = u * integral_;
+  const Interval& at = interval_at(u, area);
   // Within a trapezoid: y0 t + (y1 - y0) t^2 / 2 = remaining / width, solved without cancellation.
-  const double width = x_[i] - x_[i - 1];
-  const double rest = (area - cumulative_[i - 1]) / width;
-  const double y0 = y_[i - 1], dy = y_[i] - y_[i - 1];
-  const double root = std::sqrt(std::max(0.0, y0 * y0 + 2.0 * dy * rest));
-  const double t = y0 + root > 0.0 ? 2.0 * rest / (y0 + root) : 0.0;
-  return x_[i - 1] + std::clamp(t, 0.0, 1.0) * width;
+  const double rest = (area - at.below) / at.width;
+  const double root = std::sqrt(std::max(0.0, at.y * at.y + 2.0 * at.step * rest));
+  const double t = at.y + root > 0.0 ? 2.0 * rest / (at.y + root) : 0.0;
+  return at.x + std::clamp(t, 0.0, 1.0) * at.width;
 }
 
 double CurveSampler::share_below(double x) const {
-  if (x <= x_.front()) return 0.0;
-  if (x >= x_.back()) return 1.0;
-  const auto i = static_cast<std::size_t>(std::upper_bound(x_.begin(), x_.end(), x) - x_.begin());
-  const double width = x_[i] - x_[i - 1], t = (x - x_[i - 1]) / width;
-  const double part = width * t * (y_[i - 1] + 0.5 * t * (y_[i] - y_[i - 1]));
-  return std::min(1.0, (cumulative_[i - 1] + part) / cumulative_.back());
-}
-
-double CurveSampler::mean() const {
-  if (x_.size() == 1) return x_.front();
-  double first_moment = 0.0;
-  for (std::size_t i = 1; i < x_.size(); ++i) {
-    const double width = x_[i] - x_[i - 1];
-    first_moment += width * ((2.0 * x_[i - 1] + x_[i]) * y_[i - 1] + (x_[i - 1] + 2.0 * x_[i]) * y_[i]) / 6.0;
-  }
-  return first_moment / cumulative_.back();
+  if (x <= first_x_) return 0.0;
+  if (x >= last_x_) return 1.0;
+  const auto above =
+      std::upper_bound(intervals_.begin(), intervals_.end(), x,
+                       [](double value, const Interval& interval) { return value < interval.x; });
+  const Interval& at = *(above - 1);
+  const double t = (x - at.x) / at.width;
+  const double part = at.width * t * (at.y + 0.5 * t * at.step);
+  return std::min(1.0, (at.below + part) / integral_);
 }
 
 }  // namespace scintray::core

@@ -1,6 +1,7 @@
 #pragma once
 /// Tabulated functions of one variable: indices, efficiencies, spectra against wavelength.
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -34,7 +35,8 @@ class Curve {
   std::vector<double> y_{0.0};
 };
 
-/// Samples x with density proportional to a non-negative curve (inverse of its exact integral).
+/// Samples x with density proportional to a non-negative curve (inverse of its exact integral). The interval
+/// is found by a guide table (H.-C. Chen and Y. Asau 1974; cited from memory), which gives that of a search.
 class CurveSampler {
  public:
   CurveSampler() = default;
@@ -44,10 +46,20 @@ class CurveSampler {
   double sample(double u) const;
   /// Cumulative distribution at x, in [0, 1]: the inverse of `sample`.
   double share_below(double x) const;
-  double mean() const;
+  double mean() const { return mean_; }
 
  private:
-  std::vector<double> x_, y_, cumulative_;
+  /// From one point of the curve to the next.
+  struct Interval {
+    double below = 0.0;           ///< integral up to the interval
+    double x = 0.0, width = 0.0;  ///< its start, and its length
+    double y = 0.0, step = 0.0;   ///< the density at its start, and from there to its end
+  };
+  const Interval& interval_at(double u, double area) const;
+
+  double first_x_ = 0.0, last_x_ = 0.0, integral_ = 0.0, mean_ = 0.0;
+  std::vector<Interval> intervals_;   ///< none: the curve is a constant, and x is always first_x_
+  std::vector<std::uint32_t> guide_;  ///< for equal steps of u: the interval at the start of the step
 };
 
 }  // namespace scintray::core

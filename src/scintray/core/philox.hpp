@@ -53,7 +53,8 @@ class Rng {
 
   /// 64 random bits.
   std::uint64_t bits() {
-    if (used_ == 4) refill();
+    if (used_ == 4) [[unlikely]]
+      refill();
     return buffer_[used_++];
   }
 
@@ -65,7 +66,8 @@ class Rng {
   double uniform_positive() { return static_cast<double>((bits() >> 11) + 1) * 0x1.0p-53; }
 
  private:
-  void refill() {
+  /// Out of line, so that bits() is inlined.
+  [[gnu::noinline]] void refill() {
     buffer_ = philox4x64(counter_, key_);
     ++counter_[0];
     used_ = 0;

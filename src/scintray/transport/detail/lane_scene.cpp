@@ -37,30 +37,35 @@ void set_facets(const optics::FacetSurface& facets, LaneFace& face) {
   face.by_area = limits.by_area ? 1.0 : 0.0;
 }
 
-LaneTable lane_table(const optics::SurfaceTable& table, double wavelength_nm) {
-  LaneTable lanes;
-  const optics::SurfaceTable::BetweenWavelengths between = table.between_wavelengths(wavelength_nm);
-  for (std::size_t k = 0; k < 2; ++k) {
-    const std::size_t slice = between.first + (between.to_next ? k : 0);
-    lanes.view[k][0] = table.sampler(slice, optics::Side::inside).view();
-    lanes.view[k][1] = table.sampler(slice, optics::Side::outside).view();
-  }
-  lanes.to_next = between.to_next ? std::max(0.0, *between.to_next) : -1.0;
-  lanes.absorbs = table.absorbs();
-  return lanes;
+/// True when photons meet the same at two links: the same surface, from the same side, and then the same
+/// medium.
+bool meet_the_same(const scene::Scene& scene, const scene::BoundaryLink& a, const scene::BoundaryLink& b) {
+  if (a.interface == b.interface) return a.from_back == b.from_back;
+  const scene::Interface &at_a = scene.interfaces[a.interface], &at_b = scene.interfaces[b.interface];
+  const auto behind = [&](const scene::BoundaryLink& link, const scene::Interface& at) {
+    return scene.regions[link.from_back ? at.front : at.back].medium;
+  };
+  const scene::LinkSurface first = scene::first_surface(at_a, a.from_back),
+                           other = scene::first_surface(at_b, b.from_back);
+  return first.id == other.id && first.own == other.own && at_a.plain == at_b.plain &&
+         a.smooth_to == b.smooth_to && behind(a, at_a) == behind(b, at_b);
 }
 
 }  // namespace
 
 LaneRegion LaneScene::region_of(const source::Photon& photon, std::size_t photon_index) {
   const Planes& planes = planes_of(scene_.regions[photon.region]);
-  Faces* faces = &faces_[photon.region.index()];
-  if (faces->faces.empty()) {
-    make_faces(photon, planes, *faces);
-  } else if (faces->wavelength_nm != photon.wavelength_nm) {
-    faces = &own_[photon_index];
-    if (faces->region != photon.region || faces->wavelength_nm != photon.wavelength_nm)
-      make_faces(photon, planes, *faces);
+  RegionFaces& known = faces_[photon.region.index()];
+  if (known.at_first.faces.empty()) make_faces(photon, planes, known);
+  const Faces* faces = &known.at_first;
+  if (faces->wavelength_nm != photon.wavelength_nm) {
+    Faces& own = own_[photon_index];
+    faces = &own;
+    if (own.region != photon.region) own = known.at_first;
+    if (own.wavelength_nm != photon.wavelength_nm) {
+      set_wavelength(photon, known.alike, own.faces);
+      own.wavelength_nm = photon.wavelength_nm;
+    }
   }
   return {planes.planes.data(), faces->faces.data(), planes.planes.size()};
 }
@@ -86,49 +91,94 @@ const LaneScene::Planes& LaneScene::planes_of(const scene::Region& region) {
   return *known;
 }
 
-void LaneScene::make_faces(const source::Photon& photon, const Planes& planes, Faces& faces) const {
-  faces.region = photon.region;
-  faces.wavelength_nm = photon.wavelength_nm;
-  faces.faces.clear();
-  faces.tables.clear();
-  faces.tables.reserve(planes.triangles.size());  // faces point to them
-  for (std::size_t plane = 0; plane < planes.triangles.size(); ++plane) {
-    faces.faces.push_back(face(photon, planes.triangles[plane], faces.tables));
-    if (planes.mixed[plane]) faces.faces.back().kind = lane_state::kUnclear;
+void LaneScene::make_faces(const source::Photon& photon, const Planes& planes, RegionFaces& made) {
+  const scene::Region& region = scene_.regions[photon.region];
+  Faces& at_first = made.at_first;
+  at_first.region = photon.region;
+  at_first.wavelength_nm = photon.wavelength_nm;
+  for (std::uint32_t plane = 0; plane < planes.triangles.size(); ++plane) {
+    const scene::BoundaryLink& link = scene_.link(region, planes.triangles[plane]);
+    const std::optional<optics::LaneSurface> surface = scene::lane_surface_at(scene_, link);
+    at_first.faces.push_back(face(photon.region, planes.triangles[plane], surface));
+    if (planes.mixed[plane])
+      at_first.faces.back().kind = lane_state::kUnclear;
+    else if (surface)
+      alike(link, *surface, made.alike).planes.push_back(plane);
   }
+  set_wavelength(photon, made.alike, at_first.faces);
 }
 
-LaneFace LaneScene::face(const source::Photon& photon, std::uint32_t triangle,
-                         std::vector<LaneTable>& tables) const {
-  const scene::Region& region = scene_.regions[photon.region];
-  const scene::BoundaryLink& link = scene_.link(region, triangle);
-  const scene::Interface& interface = scene_.interfaces[link.interface];
-  const core::PlainVec3& normal = scene_.accelerator(region).normal(triangle);
+LaneFace LaneScene::face(core::RegionId region, std::uint32_t triangle,
+                         const std::optional<optics::LaneSurface>& surface) const {
+  const core::PlainVec3& normal = scene_.accelerator(scene_.regions[region]).normal(triangle);
   LaneFace face{};
   for (int axis = 0; axis < 3; ++axis) face.normal[axis] = normal[axis];
   face.kind = lane_state::kBoundary;
   face.least_sin2 = kNoTotalReflection;
-  const std::optional<optics::LaneSurface> surface = scene::lane_surface_at(scene_, link);
   if (!surface) return face;
-
-  const double here = photon.optics.index;
   face.kind = state_of(surface->micro);
-  face.index_behind = index_behind(scene_, link, photon);
-  face.counted = !interface.plain || here != face.index_behind ? 1.0 : 0.0;
-  if (interface.plain) face.least_sin2 = critical_sin2(scene_, link.smooth_to, photon);
-  const scene::LinkSurface first = scene::first_surface(interface, link.from_back);
   if (surface->facets) set_facets(*surface->facets, face);
-  if (surface->table) {
-    tables.push_back(lane_table(*surface->table, photon.wavelength_nm));
-    face.table = &tables.back();
-  }
   if (!surface->reflector) return face;
-  const optics::Surface& stack = scene_.surfaces[first.id];
-  face.index_behind = surface->micro == Micro::painted ? here : stack.gap_index(photon.wavelength_nm);
   face.reflector = 1.0;
-  face.reflectance = surface->reflector->reflectance(photon.wavelength_nm);
   face.specular_share = surface->reflector->specular_share;
   return face;
+}
+
+LaneScene::AlikeFaces& LaneScene::alike(const scene::BoundaryLink& link, const optics::LaneSurface& surface,
+                                        std::vector<AlikeFaces>& of_region) {
+  for (AlikeFaces& known : of_region)
+    if (meet_the_same(scene_, known.link, link)) return known;
+  of_region.push_back({link, surface, surface.table ? tables_of(*surface.table) : nullptr, {}});
+  return of_region.back();
+}
+
+const LaneTable* LaneScene::tables_of(const optics::SurfaceTable& table) {
+  std::vector<LaneTable>& known = tables_[&table];
+  if (!known.empty()) return known.data();
+  const std::size_t slices = table.wavelengths_nm().size();
+  for (std::size_t first = 0; first < std::max<std::size_t>(slices, 2) - 1; ++first) {
+    LaneTable lanes;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const std::size_t slice = std::min(first + k, slices - 1);
+      lanes.view[k][0] = table.sampler(slice, optics::Side::inside).view();
+      lanes.view[k][1] = table.sampler(slice, optics::Side::outside).view();
+    }
+    lanes.absorbs = table.absorbs();
+    known.push_back(lanes);
+  }
+  return known.data();
+}
+
+void LaneScene::set_wavelength(const source::Photon& photon, const std::vector<AlikeFaces>& alike,
+                               std::vector<LaneFace>& faces) const {
+  const double here = photon.optics.index;
+  for (const AlikeFaces& set : alike) {
+    const scene::Interface& interface = scene_.interfaces[set.link.interface];
+    LaneFace at = faces[set.planes.front()];
+    at.index_behind = index_behind(scene_, set.link, photon);
+    at.counted = !interface.plain || here != at.index_behind ? 1.0 : 0.0;
+    if (interface.plain) at.least_sin2 = critical_sin2(scene_, set.link.smooth_to, photon);
+    if (set.surface.table) {
+      const auto between = set.surface.table->between_wavelengths(photon.wavelength_nm);
+      at.table = set.tables + between.first;
+      at.to_next = between.to_next ? std::max(0.0, *between.to_next) : -1.0;
+    }
+    if (set.surface.reflector) {
+      const optics::Surface& stack = scene_.surfaces[scene::first_surface(interface, set.link.from_back).id];
+      const bool painted = set.surface.micro == Micro::painted;
+      at.index_behind = painted ? here : stack.gap_index(photon.wavelength_nm);
+      at.reflectance = set.surface.reflector->reflectance(photon.wavelength_nm);
+    }
+    for (const std::uint32_t plane : set.planes) {
+      LaneFace& face = faces[plane];
+      face.index_behind = at.index_behind;
+      face.counted = at.counted;
+      face.least_sin2 = at.least_sin2;
+      face.sigma_rad = at.sigma_rad;
+      face.table = at.table;
+      face.reflectance = at.reflectance;
+    }
+  }
 }
 
 }  // namespace scintray::transport

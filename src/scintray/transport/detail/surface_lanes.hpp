@@ -4,9 +4,12 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "scintray/optics/lane_surface.hpp"
 #include "scintray/scene/scene.hpp"
 #include "scintray/transport/detail/lanes/lane_kernels.hpp"
 #include "scintray/transport/step.hpp"
@@ -15,7 +18,7 @@ namespace scintray::transport {
 
 /// Planes and faces of the regions that photons enter, made when the first photon does. Faces depend on the
 /// wavelength: those of a region's first photon serve all others of its wavelength; photons of other
-/// wavelengths have faces of their own.
+/// wavelengths have faces of their own, in which only what the wavelength changes is computed again.
 class LaneScene {
  public:
   explicit LaneScene(const scene::Scene& scene)
@@ -38,21 +41,42 @@ class LaneScene {
     std::vector<std::uint32_t> triangles;  ///< two per PlanePair
     std::vector<bool> mixed;               ///< likewise: it leads to several regions
   };
+  /// Faces of a region at a wavelength.
   struct Faces {
     core::RegionId region;
     double wavelength_nm = 0.0;
-    std::vector<LaneFace> faces;    ///< two per PlanePair; empty: not made
-    std::vector<LaneTable> tables;  ///< of the faces
+    std::vector<LaneFace> faces;  ///< two per PlanePair; empty: not made
+  };
+  /// Faces of a region that have the same surface and the same medium behind it.
+  struct AlikeFaces {
+    scene::BoundaryLink link;  ///< of one of them
+    optics::LaneSurface surface;
+    const LaneTable* tables = nullptr;  ///< of a table: the first of tables_of()
+    std::vector<std::uint32_t> planes;  ///< their numbers
+  };
+  struct RegionFaces {
+    Faces at_first;                 ///< at the wavelength of the first photon
+    std::vector<AlikeFaces> alike;  ///< all that depend on the wavelength
   };
 
   const Planes& planes_of(const scene::Region& region);
-  void make_faces(const source::Photon& photon, const Planes& planes, Faces& faces) const;
-  LaneFace face(const source::Photon& photon, std::uint32_t triangle, std::vector<LaneTable>& tables) const;
+  void make_faces(const source::Photon& photon, const Planes& planes, RegionFaces& made);
+  /// What of a face does not depend on the wavelength.
+  LaneFace face(core::RegionId region, std::uint32_t triangle,
+                const std::optional<optics::LaneSurface>& surface) const;
+  AlikeFaces& alike(const scene::BoundaryLink& link, const optics::LaneSurface& surface,
+                    std::vector<AlikeFaces>& of_region);
+  /// Sets what depends on the wavelength, that of the photon.
+  void set_wavelength(const source::Photon& photon, const std::vector<AlikeFaces>& alike,
+                      std::vector<LaneFace>& faces) const;
+  /// Of a table, from each of its wavelengths to the next.
+  const LaneTable* tables_of(const optics::SurfaceTable& table);
 
   const scene::Scene& scene_;
   std::vector<std::unique_ptr<Planes>> planes_;  ///< by accelerator
-  std::vector<Faces> faces_;                     ///< by region
+  std::vector<RegionFaces> faces_;               ///< by region
   std::vector<Faces> own_;                       ///< by photon
+  std::map<const optics::SurfaceTable*, std::vector<LaneTable>> tables_;
 };
 
 /// The photons of the pool of lane_pool.hpp: those in regions for surface lanes, until an event that is

@@ -278,10 +278,11 @@ class LanePasses : LanePhotons<Real, kDraws> {
       found.interval[lane] = &kNone;
       found.several[lane] = found.absorbs[lane] = found.transmits[lane] = 0.0;
       if ((lanes >> lane & 1) == 0) continue;
-      const LaneTable& table = *reinterpret_cast<const LaneFace*>(now.face[lane])->table;
-      found.view[lane] = &table.view[uniform[lane] < table.to_next ? 1 : 0][side[lane] > 0.0 ? 0 : 1];
+      const LaneFace& face = *reinterpret_cast<const LaneFace*>(now.face[lane]);
+      const LaneTable& table = *face.table;
+      found.view[lane] = &table.view[uniform[lane] < face.to_next ? 1 : 0][side[lane] > 0.0 ? 0 : 1];
       found.interval[lane] = &optics::interval_at(*found.view[lane], slant[lane]);
-      found.several[lane] = table.to_next >= 0.0 ? 1.0 : 0.0;
+      found.several[lane] = face.to_next >= 0.0 ? 1.0 : 0.0;
       found.absorbs[lane] = table.absorbs ? 1.0 : 0.0;
       found.transmits[lane] = found.interval[lane]->transmits ? 1.0 : 0.0;
     }

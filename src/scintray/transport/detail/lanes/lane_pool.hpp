@@ -44,11 +44,10 @@ struct PlanePair {
 };
 static_assert(sizeof(PlanePair) == 64);
 
-/// A surface table at one wavelength.
+/// A surface table between two of its wavelengths.
 struct LaneTable {
   optics::TableView view[2]
                         [2];  ///< of a slice and the next, for light from the photon's region and from beyond
-  double to_next = -1.0;  ///< probability of the next slice; negative: there is one slice, and none is drawn
   bool absorbs = false;
 };
 
@@ -62,7 +61,10 @@ struct LaneFace {
   double counted;       ///< 1 when reaching it counts as an interaction
   double reflector;     ///< 1: behind the microsurface is a reflector; 0: the next region
 
-  double sigma_rad;               ///< of facets
+  union {
+    double sigma_rad;  ///< of facets
+    double to_next;  ///< of a table: probability of its next slice; negative: there is one, and none is drawn
+  };
   double widest_rad;              ///< facets beyond this angle are drawn again
   double sin_widest, cos_widest;  ///< of facets weighted by area: greatest_facing() needs them
 
