@@ -460,7 +460,10 @@ photons = 4000
       photon.position += scene.regions[photon.region].centre.vec() - scene.regions[first].centre.vec();
       return photon;
     };
-    batch.trace(4000, stream, emit);
+    std::uint64_t next = 0;
+    batch.trace(4000, stream, emit,
+                [&](std::uint64_t i, const transport::TracedPhoton&) { CHECK(i == next++); });
+    CHECK(next == 4000);
     REQUIRE(batch.counts().groups > 0);
     return static_cast<double>(batch.counts().grouped) / static_cast<double>(batch.counts().groups);
   };

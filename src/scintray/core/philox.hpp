@@ -53,8 +53,7 @@ class Rng {
 
   /// 64 random bits.
   std::uint64_t bits() {
-    if (used_ == 4) [[unlikely]]
-      refill();
+    if (used_ == 4) refill();
     return buffer_[used_++];
   }
 
@@ -66,8 +65,7 @@ class Rng {
   double uniform_positive() { return static_cast<double>((bits() >> 11) + 1) * 0x1.0p-53; }
 
  private:
-  /// Out of line, so that bits() is inlined.
-  [[gnu::noinline]] void refill() {
+  void refill() {
     buffer_ = philox4x64(counter_, key_);
     ++counter_[0];
     used_ = 0;

@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <memory>
+#include <mutex>
 #include <string>
+#include <thread>
+#include <utility>
 #include <vector>
 
 #include "scintray/core/in_order.hpp"
@@ -48,6 +52,27 @@ bool starts_in_lanes(const scene::Scene& scene, const source::LightSource& sourc
   });
 }
 
+/// Batches that no thread is using. What a batch has made of the scene serves the next blocks.
+class FreeBatches {
+ public:
+  /// Null when there is none.
+  std::unique_ptr<transport::Batch> take() {
+    const std::lock_guard lock(mutex_);
+    if (free_.empty()) return nullptr;
+    std::unique_ptr<transport::Batch> batch = std::move(free_.back());
+    free_.pop_back();
+    return batch;
+  }
+  void put(std::unique_ptr<transport::Batch> batch) {
+    const std::lock_guard lock(mutex_);
+    free_.push_back(std::move(batch));
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<transport::Batch>> free_;
+};
+
 /// Traces the blocks of one point.
 class BlockTracer {
  public:
@@ -61,16 +86,43 @@ class BlockTracer {
         lane_width_(lane_width_of(scene, source, plan, settings)),
         lane_kinds_(transport::lane_kinds(scene, lane_width_)) {}
 
-  Block trace(std::uint64_t number) const {
-    Block block(scene_, plan_);
+  /// Blocks traced together at best, of a number of them. The lanes are full until the last photons of all
+  /// are under way, and no result depends on it; threads need pieces of work, and several each.
+  std::uint64_t together(std::uint64_t blocks) const {
+    constexpr std::uint64_t kMost = 8, kPiecesPerThread = 16;
+    if (lane_width_ == 1 || energy_) return 1;
+    const std::uint64_t threads = settings_.threads > 0 ? static_cast<std::uint64_t>(settings_.threads)
+                                                        : std::thread::hardware_concurrency();
+    return std::clamp<std::uint64_t>(blocks / (kPiecesPerThread * std::max<std::uint64_t>(threads, 1)), 1,
+                                     kMost);
+  }
+
+  /// Traces successive blocks.
+  std::vector<Block> trace(const tally::BlockRange& numbers) const {
+    std::vector<Block> blocks;
+    blocks.reserve(numbers.count());
+    while (blocks.size() < numbers.count()) blocks.emplace_back(scene_, plan_);
+    if (lane_width_ > 1)
+      trace_together(numbers.first, blocks);
+    else
+      for (std::size_t i = 0; i < blocks.size(); ++i) trace_alone(numbers.first + i, blocks[i]);
+    return blocks;
+  }
+
+ private:
+  /// A photon of a block.
+  struct Address {
+    std::uint64_t event = 0, photon = 0;
+    double conversion_draw = 0.0;
+    std::size_t block = 0;  ///< of those traced together
+  };
+
+  /// Traces the photons of a block one after another, with all that is recorded of them on their way.
+  void trace_alone(std::uint64_t number, Block& block) const {
     const auto pass = [&](const source::Photon& photon, const transport::Step& passed) {
       block.photons.pass(photon, passed);
     };
     transport::PropagationLimits limits = limits_of(settings_);
-    if (lane_width_ > 1) {
-      trace_together(source_.block(number), limits, block);
-      return block;
-    }
     if (block.photons.wants_reflections()) limits.passed = pass;
     source::EventLight light;
     ConversionDraws draws(settings_);
@@ -86,50 +138,49 @@ class BlockTracer {
         ++block.traced;
       }
       block.emitted += count;
-      if (energy_)
-        block.events.end(
-            [&](std::uint32_t channel) { return sensor_stream(settings_, span.event, channel); });
+      if (energy_) end_event(span.event, block);
     }
-    return block;
   }
 
- private:
-  /// A photon of the block.
-  struct Address {
-    std::uint64_t event = 0, photon = 0;
-    double conversion_draw = 0.0;
-  };
+  void end_event(std::uint64_t event, Block& block) const {
+    block.events.end([&](std::uint32_t channel) { return sensor_stream(settings_, event, channel); });
+  }
 
   /// Traces photons of which only the ends are recorded. One event of energy is traced after another.
-  void trace_together(const std::vector<source::PhotonSpan>& spans,
-                      const transport::PropagationLimits& limits, Block& block) const {
-    transport::Batch batch(scene_, limits, lane_width_, lane_kinds_);
+  void trace_together(std::uint64_t first, std::vector<Block>& blocks) const {
+    std::unique_ptr<transport::Batch> batch = batches_.take();
+    if (!batch)
+      batch = std::make_unique<transport::Batch>(scene_, limits_of(settings_), lane_width_, lane_kinds_);
     source::EventLight light;
     ConversionDraws draws(settings_);
     std::vector<Address> photons;
-    for (const source::PhotonSpan& span : spans) {
-      core::Rng rng = event_stream(settings_, span.event);
-      source_.begin(scene_, span.event, rng, light);
-      if (energy_) block.events.begin(span.event, settings_.point, light);
-      const std::uint64_t count = std::min(span.count, light.photons - span.first);
-      block.emitted += count;
-      for (std::uint64_t i = span.first; i < span.first + count; ++i) {
-        const double draw = draws.at(span.event, i);
-        if (draw >= settings_.birth_efficiency) continue;
-        photons.push_back({span.event, i, draw});
-        if (photons.size() == kMostTogether) trace_together(photons, light, batch, block);
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+      Block& block = blocks[b];
+      for (const source::PhotonSpan& span : source_.block(first + b)) {
+        core::Rng rng = event_stream(settings_, span.event);
+        source_.begin(scene_, span.event, rng, light);
+        if (energy_) block.events.begin(span.event, settings_.point, light);
+        const std::uint64_t count = std::min(span.count, light.photons - span.first);
+        block.emitted += count;
+        for (std::uint64_t i = span.first; i < span.first + count; ++i) {
+          const double draw = draws.at(span.event, i);
+          if (draw >= settings_.birth_efficiency) continue;
+          photons.push_back({span.event, i, draw, b});
+          if (photons.size() == kMostTogether) trace_together(photons, light, *batch, blocks);
+        }
+        if (!energy_) continue;
+        trace_together(photons, light, *batch, blocks);
+        end_event(span.event, block);
       }
-      if (!energy_) continue;
-      trace_together(photons, light, batch, block);
-      block.events.end([&](std::uint32_t channel) { return sensor_stream(settings_, span.event, channel); });
     }
-    trace_together(photons, light, batch, block);
+    trace_together(photons, light, *batch, blocks);
+    batches_.put(std::move(batch));
   }
 
   /// Traces the photons, and removes them from the list.
   /// @param light  of their event; for a source of photons of any event
   void trace_together(std::vector<Address>& photons, const source::EventLight& light, transport::Batch& batch,
-                      Block& block) const {
+                      std::vector<Block>& blocks) const {
     const auto stream = [&](std::uint64_t i) {
       return photon_stream(settings_, photons[i].event, photons[i].photon);
     };
@@ -138,21 +189,18 @@ class BlockTracer {
       photon.conversion_draw = photons[i].conversion_draw;
       return photon;
     };
-    const std::vector<transport::TracedPhoton>& traced = batch.trace(photons.size(), stream, emit);
-    tally::BlockTally& tally = block.photons;
-    tally.count_steps(batch.counts().segments, batch.counts().resolved);
-    for (std::size_t i = 0; i < photons.size(); ++i) {
-      const transport::TracedPhoton& end = traced[i];
+    const auto end = [&](std::uint64_t i, const transport::TracedPhoton& traced) {
+      Block& block = blocks[photons[i].block];
+      tally::BlockTally& tally = block.photons;
+      ++block.traced;
       tally.start(photons[i].event, photons[i].photon);
-      if (end.cut) {
-        tally.cut(end.photon, *end.cut);
-        continue;
-      }
-      tally.end(end.photon, end.last, settings_.point);
-      if (energy_ && end.last.event == core::StepEvent::detected)
-        block.events.detected(plan_.channels.at(end.last), end.photon);
-    }
-    block.traced += photons.size();
+      tally.count_steps(traced.segments_before, traced.resolved_before);
+      if (traced.cut) return tally.cut(traced.photon, *traced.cut);
+      tally.end(traced.photon, traced.last, settings_.point);
+      if (energy_ && traced.last.event == core::StepEvent::detected)
+        block.events.detected(plan_.channels.at(traced.last), traced.photon);
+    };
+    batch.trace(photons.size(), stream, emit, end);
     photons.clear();
   }
 
@@ -204,6 +252,7 @@ class BlockTracer {
   bool energy_;
   int lane_width_;
   transport::LaneKinds lane_kinds_;
+  mutable FreeBatches batches_;
 };
 
 void check_every_photon_has_a_fate(const tally::PointResult& traced, std::uint64_t started) {
@@ -311,21 +360,26 @@ tally::BlockRange trace_blocks(const scene::Scene& scene, const source::LightSou
   std::uint64_t done = 0, kept = 0;
   bool is_enough = false;
   std::atomic<bool> ended{false};  // by a stop or because it is enough, where hooks decide that
-  const auto trace = [&](std::uint64_t number) {
+  const std::uint64_t together = tracer.together(blocks.count());
+  const auto trace = [&](std::uint64_t piece) {
     if (hooks.enough && hooks.stop && hooks.stop->load()) ended = true;
-    return tracer.trace(blocks.first + number);
+    const std::uint64_t first = blocks.first + piece * together;
+    return tracer.trace({first, std::min(first + together, blocks.last)});
   };
-  const auto collect = [&](std::uint64_t, const Block& block) {
-    if (is_enough) return;
-    done += energy ? block.events.events().size() : block.emitted;
-    ++kept;
-    collector.add(block);
-    if (hooks.progress) hooks.progress(done);
-    if (!hooks.enough || !hooks.enough()) return;
-    is_enough = true;
-    ended = true;
+  const auto collect = [&](std::uint64_t, const std::vector<Block>& traced) {
+    for (const Block& block : traced) {
+      if (is_enough) return;
+      done += energy ? block.events.events().size() : block.emitted;
+      ++kept;
+      collector.add(block);
+      if (hooks.progress) hooks.progress(done);
+      if (!hooks.enough || !hooks.enough()) continue;
+      is_enough = true;
+      ended = true;
+    }
   };
-  core::work_in_order(blocks.count(), settings.threads, hooks.enough ? &ended : hooks.stop, trace, collect);
+  const std::uint64_t pieces = (blocks.count() + together - 1) / together;
+  core::work_in_order(pieces, settings.threads, hooks.enough ? &ended : hooks.stop, trace, collect);
   collector.end_range();
   return {blocks.first, blocks.first + kept};
 }

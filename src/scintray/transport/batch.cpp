@@ -21,11 +21,52 @@ core::PlainVec3 vec(const double (&from)[3]) { return {from[0], from[1], from[2]
 
 }  // namespace
 
+/// Ends of photons, which arrive in any order, to be handed over by number.
+class Batch::EndsInOrder {
+ public:
+  void begin() { first_ = 0; }
+  /// Makes room for the end of a photon, numbered one above the last.
+  void expect(std::uint64_t number) {
+    if (number - first_ == ends_.size()) grow(number);
+    known_[place(number)] = false;
+  }
+  /// The end of a photon, to be set.
+  TracedPhoton& at(std::uint64_t number) {
+    known_[place(number)] = true;
+    return ends_[place(number)];
+  }
+  /// True when it is time to hand some over: all at once is faster than each as it comes.
+  bool expects_many(std::uint64_t next) const { return next - first_ > ends_.size() - kTravellers; }
+  /// Hands over those before which none is missing.
+  /// @param next  one above the last number expected
+  void hand_over(std::uint64_t next, Batch::End end) {
+    for (; first_ < next && known_[place(first_)]; ++first_) end(first_, ends_[place(first_)]);
+  }
+
+ private:
+  std::size_t place(std::uint64_t number) const { return number & (ends_.size() - 1); }
+  void grow(std::uint64_t next) {
+    std::vector<TracedPhoton> ends(2 * ends_.size());
+    std::vector<char> known(ends.size());
+    for (std::uint64_t number = first_; number < next; ++number) {
+      ends[number & (ends.size() - 1)] = ends_[place(number)];
+      known[number & (ends.size() - 1)] = known_[place(number)];
+    }
+    ends_.swap(ends);
+    known_.swap(known);
+  }
+
+  static constexpr std::size_t kFew = 4 * kTravellers;                ///< a power of two, as all sizes
+  std::vector<TracedPhoton> ends_ = std::vector<TracedPhoton>(kFew);  ///< by number modulo size
+  std::vector<char> known_ = std::vector<char>(kFew);
+  std::uint64_t first_ = 0;  ///< number of the next to be handed over
+};
+
 class Batch::Tracing {
  public:
   Tracing(const scene::Scene& scene, const PropagationLimits& limits, int lane_width, const LaneKinds& kinds);
 
-  const std::vector<TracedPhoton>& trace(std::uint64_t count, Stream stream, Emit emit);
+  void trace(std::uint64_t count, Stream stream, Emit emit, End end);
   const BatchCounts& counts() const { return counts_; }
 
  private:
@@ -34,8 +75,9 @@ class Batch::Tracing {
     source::Photon photon;
     core::Rng rng{0, core::StreamKind::photon, 0};
     std::uint64_t number = 0;
-    std::uint32_t segments = 0;  ///< of the present step so far
-    core::RegionId angles_of;    ///< region and wavelength of its least_sin2_; none: not set
+    std::uint32_t segments = 0;                              ///< of the present step so far
+    std::uint64_t segments_before = 0, resolved_before = 0;  ///< as of TracedPhoton
+    core::RegionId angles_of;  ///< region and wavelength of its least_sin2_; none: not set
     double angles_nm = 0.0;
   };
   /// A photon to be propagated in lanes.
@@ -70,9 +112,9 @@ class Batch::Tracing {
   std::vector<std::uint32_t> alone_, for_surface_lanes_;
   std::vector<Waiting> waiting_, in_lanes_;
   std::vector<LaneWork> work_;
-  std::vector<TracedPhoton> traced_;
+  EndsInOrder ends_;
   BatchCounts counts_;
-  std::uint64_t next_ = 0;  ///< number of the next photon to start
+  std::uint64_t next_ = 0, count_ = 0;  ///< number of the next photon to start, and of all
   Stream stream_;
   Emit emit_;
 };
@@ -83,8 +125,8 @@ Batch::Batch(const scene::Scene& scene, const PropagationLimits& limits, int lan
 
 Batch::~Batch() = default;
 
-const std::vector<TracedPhoton>& Batch::trace(std::uint64_t count, Stream stream, Emit emit) {
-  return tracing_->trace(count, stream, emit);
+void Batch::trace(std::uint64_t count, Stream stream, Emit emit, End end) {
+  tracing_->trace(count, stream, emit, end);
 }
 
 const BatchCounts& Batch::counts() const { return tracing_->counts(); }
@@ -109,12 +151,13 @@ Batch::Tracing::Tracing(const scene::Scene& scene, const PropagationLimits& limi
   }
 }
 
-const std::vector<TracedPhoton>& Batch::Tracing::trace(std::uint64_t count, Stream stream, Emit emit) {
+void Batch::Tracing::trace(std::uint64_t count, Stream stream, Emit emit, End end) {
   counts_ = {};
   next_ = 0;
+  count_ = count;
   stream_ = stream;
   emit_ = emit;
-  traced_.resize(count);
+  ends_.begin();
   travellers_.resize(std::min<std::uint64_t>(count, kTravellers));
   least_sin2_.resize(travellers_.size() * most_faces_);
   for (std::uint32_t i = 0; i < travellers_.size(); ++i) replace(i);
@@ -126,17 +169,20 @@ const std::vector<TracedPhoton>& Batch::Tracing::trace(std::uint64_t count, Stre
     }
     if (!waiting_.empty()) trace_in_lanes();
     trace_in_surface_lanes();
+    if (ends_.expects_many(next_)) ends_.hand_over(next_, end);
   }
-  return traced_;
+  ends_.hand_over(next_, end);
 }
 
 void Batch::Tracing::replace(std::uint32_t index) {
-  if (next_ == traced_.size()) return;
+  if (next_ == count_) return;
+  ends_.expect(next_);
   Traveller& traveller = travellers_[index];
   traveller.number = next_++;
   traveller.rng = stream_(traveller.number);
   traveller.photon = emit_(traveller.number, traveller.rng);
   traveller.segments = 0;
+  traveller.segments_before = traveller.resolved_before = 0;
   traveller.angles_of = {};
   enqueue(index);
 }
@@ -286,12 +332,12 @@ bool Batch::Tracing::goes_on(Traveller& traveller, const Step& taken) {
   const bool ends = core::is_final(taken.event);
   const std::optional<core::Fate> cut = ends ? std::nullopt : limits_.reached(traveller.photon);
   if (!ends) {
-    counts_.segments += segments;
-    counts_.resolved += taken.resolved;
+    traveller.segments_before += segments;
+    traveller.resolved_before += taken.resolved;
     if (!cut) return true;
   }
-  TracedPhoton& traced = traced_[traveller.number];
-  traced = {traveller.photon, taken, cut};
+  TracedPhoton& traced = ends_.at(traveller.number);
+  traced = {traveller.photon, taken, cut, traveller.segments_before, traveller.resolved_before};
   traced.last.segments = segments;
   return false;
 }

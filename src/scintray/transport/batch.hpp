@@ -27,17 +27,16 @@ LaneKinds lane_kinds(const scene::Scene& scene, int lane_width);
 
 /// The end of a photon.
 struct TracedPhoton {
-  source::Photon photon;          ///< its final state
-  Step last;                      ///< its last step, unless it was cut
-  std::optional<core::Fate> cut;  ///< the fate by a limit that ended it; none: last.event is its fate
+  source::Photon photon;              ///< its final state
+  Step last;                          ///< its last step, unless it was cut
+  std::optional<core::Fate> cut;      ///< the fate by a limit that ended it; none: last.event is its fate
+  std::uint64_t segments_before = 0;  ///< of all steps but the last
+  std::uint64_t resolved_before = 0;  ///< ray queries of those steps that the exact query resolved
 };
 
-/// Counts of all steps of a batch but the photons' last ones.
+/// Photons propagated through smooth regions in lanes, and the groups in which they were: those in regions of
+/// one shape at a time.
 struct BatchCounts {
-  std::uint64_t segments = 0;
-  std::uint64_t resolved = 0;  ///< ray queries resolved by the exact query
-  /// Photons propagated through smooth regions in lanes, and the groups in which they were: those in regions
-  /// of one shape at a time.
   std::uint64_t grouped = 0, groups = 0;
 };
 
@@ -59,11 +58,18 @@ class Batch {
   /// The stream of photon number i.
   using Stream = core::FunctionRef<core::Rng(std::uint64_t i)>;
 
-  /// Traces photons 0 to count - 1. @return their ends, by number; valid until the next call
-  const std::vector<TracedPhoton>& trace(std::uint64_t count, Stream stream, Emit emit);
+  /// Receives the end of photon number i.
+  using End = core::FunctionRef<void(std::uint64_t i, const TracedPhoton& end)>;
+
+  /// Traces photons 0 to count - 1. Their ends are handed over in the order of their numbers, as soon as
+  /// those of all before are known. The lanes are full until the last photons are under way: the more
+  /// photons, the better.
+  void trace(std::uint64_t count, Stream stream, Emit emit, End end);
+  /// Of the last call.
   const BatchCounts& counts() const;
 
  private:
+  class EndsInOrder;
   class Tracing;
   std::unique_ptr<Tracing> tracing_;
 };
