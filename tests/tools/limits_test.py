@@ -138,6 +138,16 @@ class Limits(unittest.TestCase):
         other = dataclasses.replace(figures(20.0, 40.0), row=rows.Row('scene', 0.8, 1, of='one'), of_nanoseconds={4: 8.0})
         self.assertEqual(report.instructions_left(other), 50.0)
 
+    def test_what_is_needed_leaves_out_emission_and_single_lanes(self):
+        # 50 instructions are left; kernels need 20 and 5 of their 40, and 45 of the 60 outside are not emission.
+        some = figures(20.0, 40.0)
+        some.counts.in_kernels.update({VECTORS: 20.0, RANDOM: 5.0, SINGLE: 15.0})
+        some.counts.by_kind.update({'emission': Counts(5.0), 'random': Counts(8.0), 'elementary': Counts(2.0),
+                                    'propagation': Counts(45.0)})
+        self.assertEqual(report.needed_share(some), (20.0 + 5.0 + 45.0) / 50.0)
+        some.before = None
+        self.assertIsNone(report.needed_share(some))
+
     def test_tables_have_as_many_columns_in_each_line(self):
         text = report.text_of([figures(20.0, 40.0)], {'cpu': 'a processor', 'cycles_per_ns': 2.0}, 'ScintRay')
         for block in text.split('\n\n'):

@@ -23,9 +23,11 @@ class Row:
     divisions: int = 0  # of each edge of the crystal's box, as triangles of a mesh; 0: the box itself
 
 
-def crystal(title, surface, photons, accelerator="auto", divisions=0):
+def crystal(title, surface, photons, accelerator="auto", divisions=0, emission=False):
     changes = [('surface = "polished"            # set', f'surface = "{surface}"  # set'),
                ('accelerator = "auto"', f'accelerator = "{accelerator}"')]
+    if emission:
+        changes.append(('wavelength = "420 nm"', 'wavelength = "emission"'))
     if divisions:
         changes.append(('box = ["2 mm", "2 mm", "20 mm"]', 'mesh = "crystal.off"\nunit = "mm"'))
     return Row(title, "crystal.toml", changes, ["--photons", str(photons)], divisions)
@@ -47,6 +49,8 @@ ROWS = [
     crystal("painted", "painted", 400_000),
     crystal("table_ptfe", "table_ptfe", 100_000),
     crystal("height_map", "ground_on_the_spot", 40_000),
+    crystal("unified_spectrum", "roncali2013_unified_rough", 400_000, emission=True),
+    crystal("table_spectrum", "lso_ground_30um", 400_000, emission=True),
     Row("tape", "tape.toml", [], ["--photons", "60000"]),
     array(1, "bare", "polished", 200_000),
     array(20, "bare", "polished", 100_000),

@@ -62,6 +62,19 @@ def has_kernels(counts):
     return counts.kernels.instructions >= FEW * counts.whole.instructions
 
 
+EMISSION = ('emission', 'random', 'elementary')  # kinds, outside of kernels
+
+
+def needed_share(figures):
+    """Instructions over those that the factor leaves, were emission, look-ups and loops to cost nothing; None without a factor."""
+    counts, left = figures.counts, instructions_left(figures)
+    if left is None:
+        return None
+    outside = counts.whole.instructions - counts.kernels.instructions
+    emission = sum(counts.by_kind[kind].instructions for kind in EMISSION if kind in counts.by_kind)
+    return (counts.in_kernels[VECTORS] + counts.in_kernels[RANDOM] + outside - emission) / left
+
+
 def table_of_kernels(measured):
     lines = []
     for figures in measured:
@@ -72,8 +85,8 @@ def table_of_kernels(measured):
         outside = counts.whole.instructions - counts.kernels.instructions
         lines.append([figures.row.scene, number(counts.kernels.instructions),
                       *(number(counts.in_kernels[does]) for does in (VECTORS, RANDOM, SINGLE)),
-                      number(None if left is None else max(0.0, left - outside))])
-    return table(['scene', 'kernels', 'in vectors', 'Philox', 'one lane after another', 'left for kernels'], lines)
+                      number(None if left is None else max(0.0, left - outside)), number(needed_share(figures), 2)])
+    return table(['scene', 'kernels', 'in vectors', 'Philox', 'one lane after another', 'left for kernels', 'needed'], lines)
 
 
 def table_of_times(measured, clock):
