@@ -2,38 +2,17 @@
 
 #include <algorithm>
 #include <chrono>
-#include <memory>
-#include <mutex>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
 #include "scintray/core/in_order.hpp"
-#include "scintray/tally/block_tally.hpp"
-#include "scintray/tally/event_tally.hpp"
-#include "scintray/transport/batch.hpp"
+#include "scintray/simulation/detail/block_tracer.hpp"
 #include "scintray/transport/step.hpp"
 
 namespace scintray::simulation {
 
 namespace {
-
-/// Result of one block.
-struct Block {
-  Block(const scene::Scene& scene, const tally::TallyPlan& plan)
-      : photons(scene, plan), events(scene, plan) {}
-  tally::BlockTally photons;
-  tally::EventTally events;
-  std::uint64_t emitted = 0;     ///< photons
-  std::uint64_t traced = 0;      ///< of them, those that were traced
-  std::uint64_t additional = 0;  ///< re-emitted beyond one photon for each absorbed; all are traced
-};
-
-/// Photons of which the ends are held at once, so that an event of any energy takes bounded memory.
-constexpr std::size_t kMostTogether = 8192;
-/// Photons re-emitted in addition to one photon, above which the multiplication is taken as endless.
-constexpr std::uint64_t kMostAdditional = 1'000'000;
 
 /// True when light may be re-emitted at another wavelength.
 bool shifts_light(const scene::Scene& scene) {
@@ -52,209 +31,6 @@ bool starts_in_lanes(const scene::Scene& scene, const source::LightSource& sourc
   });
 }
 
-/// Batches that no thread is using. What a batch has made of the scene serves the next blocks.
-class FreeBatches {
- public:
-  /// Null when there is none.
-  std::unique_ptr<transport::Batch> take() {
-    const std::lock_guard lock(mutex_);
-    if (free_.empty()) return nullptr;
-    std::unique_ptr<transport::Batch> batch = std::move(free_.back());
-    free_.pop_back();
-    return batch;
-  }
-  void put(std::unique_ptr<transport::Batch> batch) {
-    const std::lock_guard lock(mutex_);
-    free_.push_back(std::move(batch));
-  }
-
- private:
-  std::mutex mutex_;
-  std::vector<std::unique_ptr<transport::Batch>> free_;
-};
-
-/// Traces the blocks of one point.
-class BlockTracer {
- public:
-  BlockTracer(const scene::Scene& scene, const source::LightSource& source, const tally::TallyPlan& plan,
-              const RunSettings& settings)
-      : scene_(scene),
-        source_(source),
-        plan_(plan),
-        settings_(settings),
-        energy_(source.has_energy()),
-        lane_width_(lane_width_of(scene, source, plan, settings)),
-        lane_kinds_(transport::lane_kinds(scene, lane_width_)) {}
-
-  /// Blocks traced together at best, of a number of them. The lanes are full until the last photons of all
-  /// are under way, and no result depends on it; threads need pieces of work, and several each.
-  std::uint64_t together(std::uint64_t blocks) const {
-    constexpr std::uint64_t kMost = 8, kPiecesPerThread = 16;
-    if (lane_width_ == 1 || energy_) return 1;
-    const std::uint64_t threads = settings_.threads > 0 ? static_cast<std::uint64_t>(settings_.threads)
-                                                        : std::thread::hardware_concurrency();
-    return std::clamp<std::uint64_t>(blocks / (kPiecesPerThread * std::max<std::uint64_t>(threads, 1)), 1,
-                                     kMost);
-  }
-
-  /// Traces successive blocks.
-  std::vector<Block> trace(const tally::BlockRange& numbers) const {
-    std::vector<Block> blocks;
-    blocks.reserve(numbers.count());
-    while (blocks.size() < numbers.count()) blocks.emplace_back(scene_, plan_);
-    if (lane_width_ > 1)
-      trace_together(numbers.first, blocks);
-    else
-      for (std::size_t i = 0; i < blocks.size(); ++i) trace_alone(numbers.first + i, blocks[i]);
-    return blocks;
-  }
-
- private:
-  /// A photon of a block.
-  struct Address {
-    std::uint64_t event = 0, photon = 0;
-    double conversion_draw = 0.0;
-    std::size_t block = 0;  ///< of those traced together
-  };
-
-  /// Traces the photons of a block one after another, with all that is recorded of them on their way.
-  void trace_alone(std::uint64_t number, Block& block) const {
-    const auto pass = [&](const source::Photon& photon, const transport::Step& passed) {
-      block.photons.pass(photon, passed);
-    };
-    transport::PropagationLimits limits = limits_of(settings_);
-    if (block.photons.wants_reflections()) limits.passed = pass;
-    source::EventLight light;
-    ConversionDraws draws(settings_);
-    for (const source::PhotonSpan& span : source_.block(number)) {
-      core::Rng rng = event_stream(settings_, span.event);
-      source_.begin(scene_, span.event, rng, light);
-      if (energy_) block.events.begin(span.event, settings_.point, light);
-      const std::uint64_t count = std::min(span.count, light.photons - span.first);
-      for (std::uint64_t i = span.first; i < span.first + count; ++i) {
-        const double draw = draws.at(span.event, i);
-        if (draw >= settings_.birth_efficiency) continue;
-        trace_photon(light, {span.event, i, draw}, limits, block);
-        ++block.traced;
-      }
-      block.emitted += count;
-      if (energy_) end_event(span.event, block);
-    }
-  }
-
-  void end_event(std::uint64_t event, Block& block) const {
-    block.events.end([&](std::uint32_t channel) { return sensor_stream(settings_, event, channel); });
-  }
-
-  /// Traces photons of which only the ends are recorded. One event of energy is traced after another.
-  void trace_together(std::uint64_t first, std::vector<Block>& blocks) const {
-    std::unique_ptr<transport::Batch> batch = batches_.take();
-    if (!batch)
-      batch = std::make_unique<transport::Batch>(scene_, limits_of(settings_), lane_width_, lane_kinds_);
-    source::EventLight light;
-    ConversionDraws draws(settings_);
-    std::vector<Address> photons;
-    for (std::size_t b = 0; b < blocks.size(); ++b) {
-      Block& block = blocks[b];
-      for (const source::PhotonSpan& span : source_.block(first + b)) {
-        core::Rng rng = event_stream(settings_, span.event);
-        source_.begin(scene_, span.event, rng, light);
-        if (energy_) block.events.begin(span.event, settings_.point, light);
-        const std::uint64_t count = std::min(span.count, light.photons - span.first);
-        block.emitted += count;
-        for (std::uint64_t i = span.first; i < span.first + count; ++i) {
-          const double draw = draws.at(span.event, i);
-          if (draw >= settings_.birth_efficiency) continue;
-          photons.push_back({span.event, i, draw, b});
-          if (photons.size() == kMostTogether) trace_together(photons, light, *batch, blocks);
-        }
-        if (!energy_) continue;
-        trace_together(photons, light, *batch, blocks);
-        end_event(span.event, block);
-      }
-    }
-    trace_together(photons, light, *batch, blocks);
-    batches_.put(std::move(batch));
-  }
-
-  /// Traces the photons, and removes them from the list.
-  /// @param light  of their event; for a source of photons of any event
-  void trace_together(std::vector<Address>& photons, const source::EventLight& light, transport::Batch& batch,
-                      std::vector<Block>& blocks) const {
-    const auto stream = [&](std::uint64_t i) {
-      return photon_stream(settings_, photons[i].event, photons[i].photon);
-    };
-    const auto emit = [&](std::uint64_t i, core::Rng& rng) {
-      source::Photon photon = source_.emit(scene_, light, photons[i].photon, rng);
-      photon.conversion_draw = photons[i].conversion_draw;
-      return photon;
-    };
-    const auto end = [&](std::uint64_t i, const transport::TracedPhoton& traced) {
-      Block& block = blocks[photons[i].block];
-      tally::BlockTally& tally = block.photons;
-      ++block.traced;
-      tally.start(photons[i].event, photons[i].photon);
-      tally.count_steps(traced.segments_before, traced.resolved_before);
-      if (traced.cut) return tally.cut(traced.photon, *traced.cut);
-      tally.end(traced.photon, traced.last, settings_.point);
-      if (energy_ && traced.last.event == core::StepEvent::detected)
-        block.events.detected(plan_.channels.at(traced.last), traced.photon);
-    };
-    batch.trace(photons.size(), stream, emit, end);
-    photons.clear();
-  }
-
-  /// Traces a photon, then those that wavelength shifters re-emitted in addition to it, with its stream.
-  void trace_photon(const source::EventLight& light, const Address& address,
-                    const transport::PropagationLimits& limits, Block& block) const {
-    core::Rng rng = photon_stream(settings_, address.event, address.photon);
-    source::Photon photon = source_.emit(scene_, light, address.photon, rng);
-    photon.conversion_draw = address.conversion_draw;
-    follow(photon, address, rng, limits, block);
-    std::vector<source::Photon> waiting = block.photons.records().take_additional();
-    for (std::uint64_t additional = 0; !waiting.empty(); ++additional) {
-      if (additional == kMostAdditional)
-        throw core::InputError(core::Problem{{},
-                                             "one photon was re-emitted as more than " +
-                                                 std::to_string(kMostAdditional) + " by wavelength shifters",
-                                             "a quantum yield above 1 in a medium that absorbs its own "
-                                             "emission multiplies light without end"});
-      photon = waiting.back();
-      waiting.pop_back();
-      ++block.additional;
-      follow(photon, address, rng, limits, block);
-      for (const source::Photon& more : block.photons.records().take_additional()) waiting.push_back(more);
-    }
-  }
-
-  /// Traces one photon to its end.
-  void follow(source::Photon& photon, const Address& address, core::Rng& rng,
-              const transport::PropagationLimits& limits, Block& block) const {
-    tally::BlockTally& tally = block.photons;
-    tally.start(photon, address.event, address.photon);
-    for (;;) {
-      const transport::Step taken = transport::step(scene_, photon, rng, limits, &tally.records());
-      if (core::is_final(taken.event)) {
-        tally.end(photon, taken, settings_.point);
-        if (energy_ && taken.event == core::StepEvent::detected)
-          block.events.detected(plan_.channels.at(taken), photon);
-        return;
-      }
-      tally.record(photon, taken);
-      if (const auto fate = limits.reached(photon)) return tally.cut(photon, *fate);
-    }
-  }
-
-  const scene::Scene& scene_;
-  const source::LightSource& source_;
-  const tally::TallyPlan& plan_;
-  const RunSettings& settings_;
-  bool energy_;
-  int lane_width_;
-  transport::LaneKinds lane_kinds_;
-  mutable FreeBatches batches_;
-};
-
 void check_every_photon_has_a_fate(const tally::PointResult& traced, std::uint64_t started) {
   std::uint64_t ended = 0;
   for (const std::uint64_t count : traced.fates) ended += count;
@@ -270,7 +46,7 @@ class RangeCollector {
   RangeCollector(std::function<tally::PointSums()> empty, std::uint64_t first, const RunHooks& hooks)
       : empty_(std::move(empty)), present_{first, first}, hooks_(hooks) {}
 
-  void add(const Block& block) {
+  void add(const TracedBlock& block) {
     if (present_.count() == 0) sums_ = empty_();
     block.photons.add_to(sums_, !block.events.events().empty());
     block.events.add_to(sums_.energy);
@@ -366,8 +142,8 @@ tally::BlockRange trace_blocks(const scene::Scene& scene, const source::LightSou
     const std::uint64_t first = blocks.first + piece * together;
     return tracer.trace({first, std::min(first + together, blocks.last)});
   };
-  const auto collect = [&](std::uint64_t, const std::vector<Block>& traced) {
-    for (const Block& block : traced) {
+  const auto collect = [&](std::uint64_t, const std::vector<TracedBlock>& traced) {
+    for (const TracedBlock& block : traced) {
       if (is_enough) return;
       done += energy ? block.events.events().size() : block.emitted;
       ++kept;
