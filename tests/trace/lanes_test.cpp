@@ -472,6 +472,57 @@ photons = 4000
   CHECK(mean_group(16) > 0.9 * one);  // a sixteenth, were each part by itself
 }
 
+TEST_CASE("Ends arrive in the order of photons, however many others end before one of them") {
+  // Every thousandth photon starts in a painted crystal, the others beside it, and leave the scene at once.
+  const auto point = ready(scene_spec(crystal("paint", kPaint)));
+  const scene::Scene& scene = point->scene();
+  const auto inside = [](std::uint64_t i) { return i % 1000 == 0; };
+  const auto stream = [](std::uint64_t i) { return photon_stream(RunSettings{}, 0, i); };
+  const auto emit = [&](std::uint64_t i, core::Rng& rng) {
+    source::Photon photon = point->start(0, i);
+    if (inside(i)) {
+      rng.bits();  // the streams of a run have gone on by then; any place will do
+      return photon;
+    }
+    photon.region = scene::kAmbientRegion;
+    photon.position = core::Vec3(50, 60, 70 + static_cast<double>(i));
+    photon.ray.direction = core::Vec3(1, 0, 0);
+    photon.ray.polarisation = core::Vec3(0, 1, 0);
+    photon.optics = scene.optics.at(scene.regions[photon.region].medium, photon.wavelength_nm);
+    return photon;
+  };
+  transport::PropagationLimits limits;
+  limits.interactions = 1000;
+  for (const int width : transport::lane_widths()) {
+    CAPTURE(width);
+    const transport::LaneKinds kinds = transport::lane_kinds(scene, width);
+    transport::Batch batch(scene, limits, width, kinds);
+    for (int call = 0; call < 2; ++call) {  // a batch serves again
+      std::uint64_t next = 0;
+      batch.trace(3000, stream, emit, [&](std::uint64_t i, const transport::TracedPhoton& end) {
+        REQUIRE(i == next++);
+        if (!inside(i)) {
+          CHECK(end.last.event == core::StepEvent::escaped);
+          CHECK(end.photon.position.z() == 70.0 + static_cast<double>(i));
+          return;
+        }
+        core::Rng rng = stream(i);
+        source::Photon alone = emit(i, rng);
+        std::uint64_t segments = 0;
+        for (;;) {
+          const transport::Step step = transport::step(scene, alone, rng, limits);
+          segments += step.segments;
+          if (core::is_final(step.event) || limits.reached(alone)) break;
+        }
+        CHECK(end.photon.position.z() == alone.position.z());
+        CHECK(end.photon.path_mm == alone.path_mm);
+        CHECK(end.segments_before + end.last.segments == segments);
+      });
+      CHECK(next == 3000);
+    }
+  }
+}
+
 TEST_CASE("Laws over a number type have the bits of those for one photon") {
   Rng rng(1, StreamKind::other, 0);
   const auto triple = [](const Vec3& v) { return Triple<double>{v.x(), v.y(), v.z()}; };
