@@ -479,7 +479,7 @@ TEST_CASE("Ends arrive in the order of photons, however many others end before o
   const auto inside = [](std::uint64_t i) { return i % 1000 == 0; };
   const auto stream = [](std::uint64_t i) { return photon_stream(RunSettings{}, 0, i); };
   const auto emit = [&](std::uint64_t i, core::Rng& rng) {
-    source::Photon photon = point->start(0, i);
+    source::Photon photon = point->start(i / 1000, i % 1000);
     if (inside(i)) {
       rng.bits();  // the streams of a run have gone on by then; any place will do
       return photon;
