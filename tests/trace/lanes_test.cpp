@@ -1,5 +1,7 @@
+#include <array>
 #include <filesystem>
 #include <regex>
+#include <vector>
 
 #include "io/tabulated.hpp"
 #include "physics/traced.hpp"
@@ -521,6 +523,36 @@ TEST_CASE("Ends arrive in the order of photons, however many others end before o
       CHECK(next == 3000);
     }
   }
+}
+
+TEST_CASE("Blocks traced together have the results of blocks traced one by one") {
+  // Enough photons for one thread that two blocks make a piece of work.
+  SceneSpec spec = scene_spec(replaced(crystal("paint", kPaint), "photons = 3_000", "photons = 140_000"));
+  spec.run.threads = 1;
+  scene::SceneBuilder builder(tables_of_its_own());
+  const TracedPhotons alone = trace_with(spec, 1, builder);
+  const int width = transport::lane_widths().back();
+  check_same(alone, trace_with(spec, width, builder));
+
+  // Ranges end where they did, with what is theirs, and a run ends at the block that is enough.
+  const auto ranges = [&](int lanes) {
+    spec.run.lane_width = lanes;
+    std::vector<std::array<std::uint64_t, 4>> found;
+    std::uint64_t blocks = 0;
+    RunHooks hooks;
+    hooks.range_ends = [](const BlockRange& present) { return present.count() == 3; };
+    hooks.range = [&](const BlockRange& range, PointSums sums) {
+      blocks = range.last;
+      found.push_back({range.first, range.last, sums.counts.photons, sums.counts.segments});
+    };
+    hooks.enough = [&] { return blocks >= 27; };
+    const PointResult result = SimulationPoint(spec, builder).trace(hooks);
+    CHECK(result.photons == 27 * 1024);
+    return found;
+  };
+  const auto expected = ranges(1);
+  CHECK(expected.size() == 9);
+  CHECK(ranges(width) == expected);
 }
 
 TEST_CASE("Laws over a number type have the bits of those for one photon") {

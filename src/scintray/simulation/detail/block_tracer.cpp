@@ -29,7 +29,7 @@ BlockTracer::BlockTracer(const scene::Scene& scene, const source::LightSource& s
       lane_kinds_(transport::lane_kinds(scene, lane_width_)) {}
 
 std::uint64_t BlockTracer::together(std::uint64_t blocks) const {
-  constexpr std::uint64_t kMost = 8, kPiecesPerThread = 16;
+  constexpr std::uint64_t kMost = 8, kPiecesPerThread = 64;
   if (lane_width_ == 1 || energy_) return 1;
   const std::uint64_t threads = settings_.threads > 0 ? static_cast<std::uint64_t>(settings_.threads)
                                                       : std::thread::hardware_concurrency();
