@@ -18,6 +18,19 @@ constexpr std::uint64_t kMostAdditional = 1'000'000;
 
 }  // namespace
 
+std::unique_ptr<transport::Batch> FreeBatches::take() {
+  const std::lock_guard lock(mutex_);
+  if (free_.empty()) return nullptr;
+  std::unique_ptr<transport::Batch> batch = std::move(free_.back());
+  free_.pop_back();
+  return batch;
+}
+
+void FreeBatches::put(std::unique_ptr<transport::Batch> batch) {
+  const std::lock_guard lock(mutex_);
+  free_.push_back(std::move(batch));
+}
+
 BlockTracer::BlockTracer(const scene::Scene& scene, const source::LightSource& source,
                          const tally::TallyPlan& plan, const RunSettings& settings)
     : scene_(scene),
@@ -77,7 +90,7 @@ void BlockTracer::end_event(std::uint64_t event, TracedBlock& block) const {
 }
 
 void BlockTracer::trace_together(std::uint64_t first, std::vector<TracedBlock>& blocks) const {
-  std::unique_ptr<transport::Batch> batch = std::move(batches_.local());  // none is left after an error
+  std::unique_ptr<transport::Batch> batch = batches_.take();
   if (!batch)
     batch = std::make_unique<transport::Batch>(scene_, limits_of(settings_), lane_width_, lane_kinds_);
   source::EventLight light;
@@ -103,7 +116,7 @@ void BlockTracer::trace_together(std::uint64_t first, std::vector<TracedBlock>& 
     }
   }
   trace_photons(photons, light, *batch, blocks);
-  batches_.local() = std::move(batch);
+  batches_.put(std::move(batch));
 }
 
 void BlockTracer::trace_photons(std::vector<Address>& photons, const source::EventLight& light,

@@ -1,10 +1,9 @@
 #pragma once
 /// The blocks of a run's photons, traced one photon after another or together in lanes.
 
-#include <tbb/enumerable_thread_specific.h>
-
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include "scintray/simulation/run_point.hpp"
@@ -23,6 +22,18 @@ struct TracedBlock {
   std::uint64_t emitted = 0;     ///< photons
   std::uint64_t traced = 0;      ///< of them, those that were traced
   std::uint64_t additional = 0;  ///< re-emitted beyond one photon for each absorbed; all are traced
+};
+
+/// Batches that no thread is using. What a batch has made of the scene serves the next blocks.
+class FreeBatches {
+ public:
+  /// Null when there is none.
+  std::unique_ptr<transport::Batch> take();
+  void put(std::unique_ptr<transport::Batch> batch);
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<transport::Batch>> free_;
 };
 
 /// Traces the blocks of one point, on any thread.
@@ -70,8 +81,7 @@ class BlockTracer {
   bool energy_;
   int lane_width_;
   transport::LaneKinds lane_kinds_;
-  /// One for each thread, as what a batch has made of the scene serves the next blocks.
-  mutable tbb::enumerable_thread_specific<std::unique_ptr<transport::Batch>> batches_;
+  mutable FreeBatches batches_;
 };
 
 }  // namespace scintray::simulation
