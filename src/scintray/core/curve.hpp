@@ -36,7 +36,7 @@ class Curve {
 };
 
 /// Samples x with density proportional to a non-negative curve (inverse of its exact integral). The interval
-/// is found by a guide table (H.-C. Chen and Y. Asau 1974; cited from memory), which gives that of a search.
+/// is found by a guide table (SciPy's documentation, "Discrete Guide Table (DGT)"), and is that of a search.
 class CurveSampler {
  public:
   CurveSampler() = default;
