@@ -169,14 +169,9 @@ void LaneScene::set_wavelength(const source::Photon& photon, const std::vector<A
       at.index_behind = painted ? here : stack.gap_index(photon.wavelength_nm);
       at.reflectance = set.surface.reflector->reflectance(photon.wavelength_nm);
     }
-    for (const std::uint32_t plane : set.planes) {
-      LaneFace& face = faces[plane];
-      face.index_behind = at.index_behind;
-      face.counted = at.counted;
-      face.least_sin2 = at.least_sin2;
-      face.sigma_rad = at.sigma_rad;
-      face.table = at.table;
-      face.reflectance = at.reflectance;
+    for (const std::uint32_t plane : set.planes) {  // alike but for their normals
+      std::copy_n(faces[plane].normal, 3, at.normal);
+      faces[plane] = at;
     }
   }
 }
