@@ -35,7 +35,7 @@ endfunction()
 
 # GCC 12 at -O3 warns of the standard library's own code where that is precompiled (std::string::insert).
 if(SCINTRAY_PRECOMPILE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-  target_compile_options(scintray_options INTERFACE $<BUILD_INTERFACE:-Wno-stringop-overflow -Wno-array-bounds>)
+  target_compile_options(scintray_options INTERFACE $<BUILD_INTERFACE:-Wno-stringop-overflow -Wno-stringop-overread -Wno-array-bounds>)
 endif()
 
 # What ccache asks for: it keeps what was compiled with such headers only so (its manual, "Precompiled headers").

@@ -53,6 +53,37 @@ if(SCINTRAY_FUZZ)
   target_link_options(scintray_options INTERFACE $<BUILD_INTERFACE:-fsanitize=address,undefined>)
 endif()
 
+# Kernels for the lanes of vector registers: NAME_2.cpp, NAME_4.cpp and NAME_8.cpp are compiled for SSE2, AVX2 and
+# AVX-512. Other processors than x86-64 have none: `without` is then what scintray_module() has to leave out.
+function(scintray_lanes without)
+  set(${without} PARENT_SCOPE)
+  if(NOT CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+    set(${without} WITHOUT ${ARGN} PARENT_SCOPE)
+    return()
+  endif()
+  # Of xsimd its headers alone: the target also links a library that only its complex numbers need.
+  include_directories(SYSTEM $<TARGET_PROPERTY:xsimd,INTERFACE_INCLUDE_DIRECTORIES>)
+  foreach(kernel IN LISTS ARGN)
+    set_source_files_properties(${kernel} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON)
+    if(kernel MATCHES "_4.cpp$")
+      set(options -mavx2)
+      set(bits 256)
+    elseif(kernel MATCHES "_8.cpp$")
+      # GCC 12 takes its own intrinsics of AVX-512 for uninitialised.
+      set(options -mavx512f -Wno-uninitialized)
+      set(bits 512)
+    else()
+      continue()
+    endif()
+    # By default GCC copies structures in pieces of 16 bytes; the load of a whole vector after such stores waits
+    # until they have left the store buffer.
+    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 12)
+      list(APPEND options -mmove-max=${bits} -mstore-max=${bits})
+    endif()
+    set_source_files_properties(${kernel} PROPERTIES COMPILE_OPTIONS "${options}")
+  endforeach()
+endfunction()
+
 function(scintray_module name)
   cmake_parse_arguments(MODULE "NOT_TRACING;PREPARING;NOT_IN_THREADS" "JOIN" "LINK;PRIVATE_LINK;WITHOUT" ${ARGN})
   if(MODULE_PREPARING AND NOT SCINTRAY_SANITIZE)

@@ -455,15 +455,16 @@ photons = 4000
     transport::PropagationLimits limits;
     limits.interactions = 1000;
     transport::Batch batch(scene, limits, width, kinds);
-    const auto stream = [&](std::uint64_t i) { return photon_stream(RunSettings{}, i / 1000, i % 1000); };
-    const auto emit = [&](std::uint64_t i, core::Rng&) {
-      source::Photon photon = point->start(i / 1000, i % 1000);
-      photon.region = starts[i % starts.size()];
-      photon.position += scene.regions[photon.region].centre.vec() - scene.regions[first].centre.vec();
-      return photon;
+    const auto emit = [&](std::uint64_t i, std::span<source::EmittedPhoton* const> photons) {
+      for (source::EmittedPhoton* const emitted : photons) {
+        emitted->rng = photon_stream(RunSettings{}, i / 1000, i % 1000);
+        source::Photon& photon = emitted->photon = point->start(i / 1000, i % 1000);
+        photon.region = starts[i++ % starts.size()];
+        photon.position += scene.regions[photon.region].centre.vec() - scene.regions[first].centre.vec();
+      }
     };
     std::uint64_t next = 0;
-    batch.trace(4000, stream, emit,
+    batch.trace(4000, emit,
                 [&](std::uint64_t i, const transport::TracedPhoton&) { CHECK(i == next++); });
     CHECK(next == 4000);
     REQUIRE(batch.counts().groups > 0);
@@ -480,7 +481,7 @@ TEST_CASE("Ends arrive in the order of photons, however many others end before o
   const scene::Scene& scene = point->scene();
   const auto inside = [](std::uint64_t i) { return i % 1000 == 0; };
   const auto stream = [](std::uint64_t i) { return photon_stream(RunSettings{}, 0, i); };
-  const auto emit = [&](std::uint64_t i, core::Rng& rng) {
+  const auto emit_one = [&](std::uint64_t i, core::Rng& rng) {
     source::Photon photon = point->start(i / 1000, i % 1000);
     if (inside(i)) {
       rng.bits();  // the streams of a run have gone on by then; any place will do
@@ -493,6 +494,12 @@ TEST_CASE("Ends arrive in the order of photons, however many others end before o
     photon.optics = scene.optics.at(scene.regions[photon.region].medium, photon.wavelength_nm);
     return photon;
   };
+  const auto emit = [&](std::uint64_t i, std::span<source::EmittedPhoton* const> photons) {
+    for (source::EmittedPhoton* const emitted : photons) {
+      emitted->rng = stream(i);
+      emitted->photon = emit_one(i++, emitted->rng);
+    }
+  };
   transport::PropagationLimits limits;
   limits.interactions = 1000;
   for (const int width : transport::lane_widths()) {
@@ -501,7 +508,7 @@ TEST_CASE("Ends arrive in the order of photons, however many others end before o
     transport::Batch batch(scene, limits, width, kinds);
     for (int call = 0; call < 2; ++call) {  // a batch serves again
       std::uint64_t next = 0;
-      batch.trace(3000, stream, emit, [&](std::uint64_t i, const transport::TracedPhoton& end) {
+      batch.trace(3000, emit, [&](std::uint64_t i, const transport::TracedPhoton& end) {
         REQUIRE(i == next++);
         if (!inside(i)) {
           CHECK(end.last.event == core::StepEvent::escaped);
@@ -509,7 +516,7 @@ TEST_CASE("Ends arrive in the order of photons, however many others end before o
           return;
         }
         core::Rng rng = stream(i);
-        source::Photon alone = emit(i, rng);
+        source::Photon alone = emit_one(i, rng);
         std::uint64_t segments = 0;
         for (;;) {
           const transport::Step step = transport::step(scene, alone, rng, limits);

@@ -1,11 +1,11 @@
 #pragma once
 /// Operations on numbers in which the laws of light transport are written once, for one photon (double) and
-/// for several in the lanes of a vector register (transport/detail/lanes/lane_number.hpp). Every lane has the
-/// bits of the same photon alone.
+/// for several in the lanes of a vector register (lane_number.hpp). Every lane has the bits of the same
+/// photon alone.
 ///
 /// A law is a template over the number type, without branches on numbers: it selects between results by
 /// masks. It includes nothing but headers of this kind, since lanes are compiled for instruction sets that
-/// not every processor has (lane_kernel.hpp there); for the same reason what is no template is always
+/// not every processor has; for the same reason what is no template is always
 /// inlined.
 
 #include <bit>

@@ -4,8 +4,10 @@
 /// Source: J. K. Salmon et al. 2011, "Parallel random numbers: as easy as 1, 2, 3", SC'11,
 /// Philox4x64-10 (table 2, section 4.3). The same generator as numpy.random.Philox.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 
 #include "scintray/core/philox_laws.hpp"
 
@@ -36,25 +38,45 @@ class Rng {
   Rng(std::uint64_t seed, StreamKind kind, std::uint64_t a, std::uint64_t b = 0, std::uint64_t set = 0)
       : counter_{0, b, a, static_cast<std::uint64_t>(kind)}, key_{seed, set} {}
 
-  /// Where a stream is: its next block, and what is left of the last.
+  /// Numbers of two blocks.
+  static constexpr int kDrawn = 8;
+  using Numbers = std::array<std::uint64_t, kDrawn>;
+  /// Where a stream is: its next block, and the two before that.
   struct State {
     std::array<std::uint64_t, 4> counter;
     std::array<std::uint64_t, 2> key;
-    std::array<std::uint64_t, 4> buffer;
-    int used;  ///< of the buffer
+    Numbers drawn;
+    int used;  ///< of those drawn; where only one block was drawn, of the second
   };
-  State state() const { return {counter_, key_, buffer_, used_}; }
+  State state() const { return {counter_, key_, drawn_, used_}; }
   /// Goes on from where a copy of this stream was.
   void go_on_from(const State& state) {
     counter_ = state.counter;
-    buffer_ = state.buffer;
+    drawn_ = state.drawn;
     used_ = state.used;
   }
 
+  /// Counter of the next block, and its key.
+  const std::array<std::uint64_t, 4>& counter() const { return counter_; }
+  const std::array<std::uint64_t, 2>& key() const { return key_; }
+  /// Goes on by two blocks, whose numbers the caller has drawn for several streams together and stores at the
+  /// returned place: those of counter() and the one after it. None may be left of the blocks before.
+  std::uint64_t* take_two_blocks() {
+    counter_[0] += 2;
+    used_ = 0;
+    return drawn_.data();
+  }
+  /// The next numbers, as many as are drawn already.
+  std::span<const std::uint64_t> ahead() const {
+    return std::span(drawn_).subspan(static_cast<std::size_t>(used_));
+  }
+  /// Goes on by some of the numbers that are drawn already.
+  void skip(int numbers) { used_ += numbers; }
+
   /// 64 random bits.
   std::uint64_t bits() {
-    if (used_ == 4) refill();
-    return buffer_[used_++];
+    if (used_ == kDrawn) refill();
+    return drawn_[static_cast<std::size_t>(used_++)];
   }
 
   /// Uniform on [0, 1), 53 bits.
@@ -66,15 +88,16 @@ class Rng {
 
  private:
   void refill() {
-    buffer_ = philox4x64(counter_, key_);
+    const std::array<std::uint64_t, 4> block = philox4x64(counter_, key_);
+    std::copy(block.begin(), block.end(), drawn_.begin() + kDrawn / 2);
     ++counter_[0];
-    used_ = 0;
+    used_ = kDrawn / 2;
   }
 
   std::array<std::uint64_t, 4> counter_;
   std::array<std::uint64_t, 2> key_;
-  std::array<std::uint64_t, 4> buffer_{};
-  int used_ = 4;
+  Numbers drawn_{};
+  int used_ = kDrawn;
 };
 
 inline std::array<std::uint64_t, 4> philox4x64(std::array<std::uint64_t, 4> counter,

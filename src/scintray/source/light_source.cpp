@@ -8,6 +8,7 @@
 #include "scintray/core/curve.hpp"
 #include "scintray/core/sampling.hpp"
 #include "scintray/optics/decay_time.hpp"
+#include "scintray/source/detail/emission_lanes.hpp"
 #include "scintray/source/detail/origin.hpp"
 #include "scintray/source/detail/photon_list_source.hpp"
 #include "scintray/source/detail/scintillation_source.hpp"
@@ -37,9 +38,21 @@ class PhotonSource : public LightSource {
              EventLight& light) const override;
   Photon emit(const scene::Scene& scene, const EventLight& light, std::uint64_t photon,
               core::Rng& rng) const override;
+  void emit_together(const scene::Scene& scene, const EventLight& light, std::span<EmittedPhoton* const> photons,
+                     int lane_width) const override;
   std::vector<core::RegionId> regions() const override { return origin_.regions(); }
 
  private:
+  /// The photon's place, in the state before its emission.
+  void set_place(const scene::Scene& scene, Photon& photon, core::Rng& rng) const;
+  /// Direction and polarisation.
+  void set_ray(Photon& photon, core::Rng& rng) const;
+  /// Wavelength, time, and the optics of the medium for them.
+  void set_colour(const scene::Scene& scene, Photon& photon, core::Rng& rng) const;
+  /// True when light is emitted in all directions alike, with any polarisation or none.
+  bool is_isotropic() const {
+    return direction_.kind == scene_file::DirectionKind::isotropic && !polarisation_;
+  }
   void check_medium(const scene_file::SourceSpec& spec, const scene::Scene& scene);
 
   Origin origin_;
@@ -122,26 +135,51 @@ void PhotonSource::begin(const scene::Scene&, std::uint64_t event, core::Rng&, E
   light.photons = std::min(photons_per_event_, photons_ - std::min(photons_, event * photons_per_event_));
 }
 
-Photon PhotonSource::emit(const scene::Scene& scene, const EventLight&, std::uint64_t, core::Rng& rng) const {
-  Photon photon;
+void PhotonSource::set_place(const scene::Scene& scene, Photon& photon, core::Rng& rng) const {
   const Place place = origin_.sample(scene, rng);
   photon.position = place.position;
   photon.region = place.region;
+  photon.ray.keeps_phases = scene.keeps_phases;
+}
+
+void PhotonSource::set_ray(Photon& photon, core::Rng& rng) const {
   photon.ray.direction = sample_direction(direction_, rng);
   photon.ray.polarisation = polarisation_  ? polarisation_across(photon.ray.direction, *polarisation_, rng)
                             : unpolarised_ ? core::Vec3(core::Vec3::Zero())
                                            : core::sample_polarisation(photon.ray.direction, rng);
-  photon.ray.keeps_phases = scene.keeps_phases;
+}
+
+void PhotonSource::set_colour(const scene::Scene& scene, Photon& photon, core::Rng& rng) const {
   photon.wavelength_nm = emission_ ? emission_->sample(rng.uniform()) : wavelength_nm_;
   photon.time_ns = decay_.empty() ? time_ns_ : optics::sample_decay(decay_, rng);
   photon.optics = scene.optics.at(scene.regions[photon.region].medium, photon.wavelength_nm);
+}
+
+Photon PhotonSource::emit(const scene::Scene& scene, const EventLight&, std::uint64_t, core::Rng& rng) const {
+  Photon photon;
+  set_place(scene, photon, rng);
+  set_ray(photon, rng);
+  set_colour(scene, photon, rng);
   photon.optical_depth = core::sample_exponential(rng);
   // Light that is to have a direction or a polarisation keeps that of its ray.
-  if (direction_.kind == scene_file::DirectionKind::isotropic && !polarisation_)
+  if (is_isotropic())
     emit_isotropic(scene, photon, rng);
   else
     take_mode(scene, photon, rng);
   return photon;
+}
+
+void PhotonSource::emit_together(const scene::Scene& scene, const EventLight& light,
+                                 std::span<EmittedPhoton* const> photons, int lane_width) const {
+  const EmissionLanes lanes(lane_width);
+  if (!is_isotropic() || !lanes.available())
+    return LightSource::emit_together(scene, light, photons, lane_width);
+  lanes.begin(photons);
+  for (EmittedPhoton* const emitted : photons) set_place(scene, emitted->photon, emitted->rng);
+  lanes.emit_isotropic(photons, unpolarised_);
+  for (EmittedPhoton* const emitted : photons) set_colour(scene, emitted->photon, emitted->rng);
+  lanes.draw_depths(photons);
+  for (EmittedPhoton* const emitted : photons) emit_isotropic(scene, emitted->photon, emitted->rng);
 }
 
 /// A note on the wavelengths of Cherenkov light that the scene does not state.
@@ -165,6 +203,12 @@ void note_outside(const PhotonSource& source, const scene_file::SceneSpec& spec,
 }
 
 }  // namespace
+
+void LightSource::emit_together(const scene::Scene& scene, const EventLight& light,
+                                std::span<EmittedPhoton* const> photons, int) const {
+  for (EmittedPhoton* const emitted : photons)
+    emitted->photon = emit(scene, light, emitted->number, emitted->rng);
+}
 
 std::unique_ptr<LightSource> make_light_source(const scene_file::SceneSpec& spec, const scene::Scene& scene,
                                                std::vector<std::string>* notes) {

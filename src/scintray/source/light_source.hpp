@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -34,6 +35,13 @@ struct Photon {
   std::uint32_t on_triangle = 0xffffffffu;
 };
 static_assert(std::is_trivially_copyable_v<Photon>);
+
+/// A photon that is emitted together with others.
+struct EmittedPhoton {
+  Photon photon;
+  core::Rng rng{0, core::StreamKind::photon, 0};  ///< its own stream
+  std::uint64_t number = 0;                       ///< in its event
+};
 
 /// Photons of one event, to be traced one after the other.
 struct PhotonSpan {
@@ -80,6 +88,12 @@ class LightSource {
   /// @param rng     the photon's own stream
   virtual Photon emit(const scene::Scene& scene, const EventLight& light, std::uint64_t photon,
                       core::Rng& rng) const = 0;
+  /// Initial states of several photons: each as of emit() alone, to the last bit, with its stream where emit()
+  /// leaves it.
+  /// @param photons     with numbers as for emit(), and streams of which nothing is drawn
+  /// @param lane_width  photons at once, of transport::lane_widths()
+  virtual void emit_together(const scene::Scene& scene, const EventLight& light,
+                             std::span<EmittedPhoton* const> photons, int lane_width) const;
   /// Regions in which photons may start.
   virtual std::vector<core::RegionId> regions() const = 0;
 };

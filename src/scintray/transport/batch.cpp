@@ -66,15 +66,13 @@ class Batch::Tracing {
  public:
   Tracing(const scene::Scene& scene, const PropagationLimits& limits, int lane_width, const LaneKinds& kinds);
 
-  void trace(std::uint64_t count, Stream stream, Emit emit, End end);
+  void trace(std::uint64_t count, Emit emit, End end);
   const BatchCounts& counts() const { return counts_; }
 
  private:
   /// A photon in flight.
-  struct Traveller {
-    source::Photon photon;
-    core::Rng rng{0, core::StreamKind::photon, 0};
-    std::uint64_t number = 0;
+  struct Traveller : source::EmittedPhoton {
+    std::uint64_t index = 0;                                 ///< of all photons
     std::uint32_t segments = 0;                              ///< of the present step so far
     std::uint64_t segments_before = 0, resolved_before = 0;  ///< as of TracedPhoton
     core::RegionId angles_of;  ///< region and wavelength of its least_sin2_; none: not set
@@ -86,6 +84,9 @@ class Batch::Tracing {
     std::uint32_t traveller = 0;
   };
 
+  bool in_flight() const {
+    return !alone_.empty() || !waiting_.empty() || !for_surface_lanes_.empty() || !surface_lanes_.empty();
+  }
   void enqueue(std::uint32_t traveller);
   void trace_in_surface_lanes();
   void trace_alone(std::uint32_t traveller);
@@ -98,7 +99,8 @@ class Batch::Tracing {
   /// True when the photon continues after the step; else its end is recorded, and the next photon replaces
   /// it.
   bool goes_on(Traveller& traveller, const Step& taken);
-  void replace(std::uint32_t traveller);
+  /// Starts the next photons in place of those that have ended.
+  void start();
 
   const scene::Scene& scene_;
   PropagationLimits limits_;
@@ -109,13 +111,12 @@ class Batch::Tracing {
   std::size_t most_faces_ = 0;
   std::vector<Traveller> travellers_;
   std::vector<double> least_sin2_;  ///< per traveller and face: critical angles, most_faces_ each
-  std::vector<std::uint32_t> alone_, for_surface_lanes_;
+  std::vector<std::uint32_t> ended_, alone_, for_surface_lanes_;
   std::vector<Waiting> waiting_, in_lanes_;
   std::vector<LaneWork> work_;
   EndsInOrder ends_;
   BatchCounts counts_;
   std::uint64_t next_ = 0, count_ = 0;  ///< number of the next photon to start, and of all
-  Stream stream_;
   Emit emit_;
 };
 
@@ -125,9 +126,7 @@ Batch::Batch(const scene::Scene& scene, const PropagationLimits& limits, int lan
 
 Batch::~Batch() = default;
 
-void Batch::trace(std::uint64_t count, Stream stream, Emit emit, End end) {
-  tracing_->trace(count, stream, emit, end);
-}
+void Batch::trace(std::uint64_t count, Emit emit, End end) { tracing_->trace(count, emit, end); }
 
 const BatchCounts& Batch::counts() const { return tracing_->counts(); }
 
@@ -151,17 +150,17 @@ Batch::Tracing::Tracing(const scene::Scene& scene, const PropagationLimits& limi
   }
 }
 
-void Batch::Tracing::trace(std::uint64_t count, Stream stream, Emit emit, End end) {
+void Batch::Tracing::trace(std::uint64_t count, Emit emit, End end) {
   counts_ = {};
   next_ = 0;
   count_ = count;
-  stream_ = stream;
   emit_ = emit;
   ends_.begin();
   travellers_.resize(std::min<std::uint64_t>(count, kTravellers));
   least_sin2_.resize(travellers_.size() * most_faces_);
-  for (std::uint32_t i = 0; i < travellers_.size(); ++i) replace(i);
-  while (!alone_.empty() || !waiting_.empty() || !for_surface_lanes_.empty() || !surface_lanes_.empty()) {
+  ended_.clear();
+  for (std::uint32_t i = 0; i < travellers_.size(); ++i) ended_.push_back(i);
+  for (start(); in_flight(); start()) {
     while (!alone_.empty()) {
       const std::uint32_t traveller = alone_.back();
       alone_.pop_back();
@@ -174,17 +173,27 @@ void Batch::Tracing::trace(std::uint64_t count, Stream stream, Emit emit, End en
   ends_.hand_over(next_, end);
 }
 
-void Batch::Tracing::replace(std::uint32_t index) {
-  if (next_ == count_) return;
-  ends_.expect(next_);
-  Traveller& traveller = travellers_[index];
-  traveller.number = next_++;
-  traveller.rng = stream_(traveller.number);
-  traveller.photon = emit_(traveller.number, traveller.rng);
-  traveller.segments = 0;
-  traveller.segments_before = traveller.resolved_before = 0;
-  traveller.angles_of = {};
-  enqueue(index);
+void Batch::Tracing::start() {
+  // Some wait until they are enough to be emitted together, unless nothing else is in flight.
+  while (next_ < count_ && (ended_.size() >= kTogether || (!ended_.empty() && !in_flight()))) {
+    source::EmittedPhoton* starting[kTogether];
+    const std::size_t count =
+        std::min<std::size_t>({kTogether, ended_.size(), static_cast<std::size_t>(count_ - next_)});
+    const std::span<const std::uint32_t> places(ended_.end() - static_cast<std::ptrdiff_t>(count),
+                                                ended_.end());
+    for (std::size_t i = 0; i < count; ++i) starting[i] = &travellers_[places[i]];
+    emit_(next_, {starting, count});
+    for (const std::uint32_t place : places) {
+      Traveller& traveller = travellers_[place];
+      ends_.expect(next_);
+      traveller.index = next_++;
+      traveller.segments = 0;
+      traveller.segments_before = traveller.resolved_before = 0;
+      traveller.angles_of = {};
+      enqueue(place);
+    }
+    ended_.resize(ended_.size() - count);
+  }
 }
 
 void Batch::Tracing::enqueue(std::uint32_t index) {
@@ -205,7 +214,7 @@ void Batch::Tracing::enqueue(std::uint32_t index) {
 void Batch::Tracing::trace_alone(std::uint32_t index) {
   Traveller& traveller = travellers_[index];
   do {
-    if (!goes_on(traveller, step(scene_, traveller.photon, traveller.rng, limits_))) return replace(index);
+    if (!goes_on(traveller, step(scene_, traveller.photon, traveller.rng, limits_))) return ended_.push_back(index);
   } while (kinds_[traveller.photon.region] == LaneKind::none);
   enqueue(index);
 }
@@ -222,7 +231,7 @@ void Batch::Tracing::trace_in_surface_lanes() {
     if (goes_on(traveller, surface_lanes_.finish(left, traveller.photon, traveller.rng)))
       enqueue(left.name);
     else
-      replace(left.name);
+      ended_.push_back(left.name);
   }
 }
 
@@ -313,6 +322,7 @@ void Batch::Tracing::finish(const LaneWork& work, const LaneFaces& faces, std::u
     photon.on_triangle = faces.list()[static_cast<std::size_t>(work.left)].triangle;
   traveller.segments += work.segments;
   if (work.end == LaneEnd::unclear) return alone_.push_back(index);
+  if (work.end == LaneEnd::unfinished) return enqueue(index);
   Propagation propagation;
   if (work.end != LaneEnd::bulk) {
     propagation.end = work.end == LaneEnd::total ? PropagationEnd::total : PropagationEnd::boundary;
@@ -324,7 +334,7 @@ void Batch::Tracing::finish(const LaneWork& work, const LaneFaces& faces, std::u
   if (goes_on(traveller, end_of_step(scene_, propagation, photon, traveller.rng, nullptr)))
     enqueue(index);
   else
-    replace(index);
+    ended_.push_back(index);
 }
 
 bool Batch::Tracing::goes_on(Traveller& traveller, const Step& taken) {
@@ -336,7 +346,7 @@ bool Batch::Tracing::goes_on(Traveller& traveller, const Step& taken) {
     traveller.resolved_before += taken.resolved;
     if (!cut) return true;
   }
-  TracedPhoton& traced = ends_.at(traveller.number);
+  TracedPhoton& traced = ends_.at(traveller.index);
   traced = {traveller.photon, taken, cut, traveller.segments_before, traveller.resolved_before};
   traced.last.segments = segments;
   return false;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "scintray/core/function_ref.hpp"
@@ -53,10 +54,10 @@ class Batch {
   Batch(const scene::Scene& scene, const PropagationLimits& limits, int lane_width, const LaneKinds& kinds);
   ~Batch();
 
-  /// The state in which photon number i starts, and its random stream.
-  using Emit = core::FunctionRef<source::Photon(std::uint64_t i, core::Rng& rng)>;
-  /// The stream of photon number i.
-  using Stream = core::FunctionRef<core::Rng(std::uint64_t i)>;
+  /// Sets the states in which photons start, and their random streams: those with successive numbers from
+  /// `first`, at most kTogether.
+  using Emit = core::FunctionRef<void(std::uint64_t first, std::span<source::EmittedPhoton* const> photons)>;
+  static constexpr std::size_t kTogether = 8;
 
   /// Receives the end of photon number i.
   using End = core::FunctionRef<void(std::uint64_t i, const TracedPhoton& end)>;
@@ -64,7 +65,7 @@ class Batch {
   /// Traces photons 0 to count - 1. Their ends are handed over in the order of their numbers, as soon as
   /// those of all before are known. The lanes are full until the last photons are under way: the more
   /// photons, the better.
-  void trace(std::uint64_t count, Stream stream, Emit emit, End end);
+  void trace(std::uint64_t count, Emit emit, End end);
   /// Of the last call.
   const BatchCounts& counts() const;
 

@@ -1,6 +1,7 @@
 #include "scintray/simulation/detail/block_tracer.hpp"
 
 #include <algorithm>
+#include <span>
 #include <string>
 #include <thread>
 #include <utility>
@@ -121,13 +122,14 @@ void BlockTracer::trace_together(std::uint64_t first, std::vector<TracedBlock>& 
 
 void BlockTracer::trace_photons(std::vector<Address>& photons, const source::EventLight& light,
                                 transport::Batch& batch, std::vector<TracedBlock>& blocks) const {
-  const auto stream = [&](std::uint64_t i) {
-    return photon_stream(settings_, photons[i].event, photons[i].photon);
-  };
-  const auto emit = [&](std::uint64_t i, core::Rng& rng) {
-    source::Photon photon = source_.emit(scene_, light, photons[i].photon, rng);
-    photon.conversion_draw = photons[i].conversion_draw;
-    return photon;
+  const auto emit = [&](std::uint64_t first, std::span<source::EmittedPhoton* const> emitted) {
+    for (std::size_t i = 0; i < emitted.size(); ++i) {
+      emitted[i]->number = photons[first + i].photon;
+      emitted[i]->rng = photon_stream(settings_, photons[first + i].event, emitted[i]->number);
+    }
+    source_.emit_together(scene_, light, emitted, lane_width_);
+    for (std::size_t i = 0; i < emitted.size(); ++i)
+      emitted[i]->photon.conversion_draw = photons[first + i].conversion_draw;
   };
   const auto end = [&](std::uint64_t i, const transport::TracedPhoton& traced) {
     TracedBlock& block = blocks[photons[i].block];
@@ -140,7 +142,7 @@ void BlockTracer::trace_photons(std::vector<Address>& photons, const source::Eve
     if (energy_ && traced.last.event == core::StepEvent::detected)
       block.events.detected(plan_.channels.at(traced.last), traced.photon);
   };
-  batch.trace(photons.size(), stream, emit, end);
+  batch.trace(photons.size(), emit, end);
   photons.clear();
 }
 

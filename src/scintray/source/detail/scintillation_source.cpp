@@ -10,6 +10,7 @@
 #include "scintray/core/sampling.hpp"
 #include "scintray/core/statistics.hpp"
 #include "scintray/optics/decay_time.hpp"
+#include "scintray/source/detail/emission_lanes.hpp"
 #include "scintray/source/detail/scintillation.hpp"
 #include "scintray/source/photon_optics.hpp"
 
@@ -195,14 +196,28 @@ void ScintillationSource::emit_cherenkov(const Deposit& deposit, core::MediumId 
   photon.time_ns = deposit.time_ns + time_along(step, emission.along);
 }
 
-Photon ScintillationSource::emit(const scene::Scene& scene, const EventLight& light, std::uint64_t number,
-                                 core::Rng& rng) const {
+ScintillationSource::Cause ScintillationSource::cause_of(const scene::Scene& scene, const EventLight& light,
+                                                         std::uint64_t number) {
   const auto from = std::upper_bound(
       light.deposits.begin(), light.deposits.end(), number,
       [](std::uint64_t photon, const EventLight::DepositEnd& end) { return photon < end.all; });
   const Deposit& deposit = light.event.deposits[static_cast<std::size_t>(from - light.deposits.begin())];
-  const bool prompt = number >= from->scintillation;
-  const core::MediumId medium = scene.regions[deposit.region].medium;
+  return {deposit, number >= from->scintillation, scene.regions[deposit.region].medium};
+}
+
+void ScintillationSource::set_colour(const scene::Scene& scene, const Cause& from, Photon& photon,
+                                     core::Rng& rng) const {
+  const auto& [deposit, prompt, medium] = from;
+  photon.wavelength_nm = prompt ? cherenkov_[medium]->sample_wavelength(deposit.energy_keV, rng)
+                                : spectrum_of(scene, medium, deposit).sample(rng.uniform());
+  photon.time_ns =
+      deposit.time_ns + (prompt ? 0.0 : sample_decay_of(scene.media[medium].medium(), deposit, rng));
+}
+
+Photon ScintillationSource::emit(const scene::Scene& scene, const EventLight& light, std::uint64_t number,
+                                 core::Rng& rng) const {
+  const Cause from = cause_of(scene, light, number);
+  const auto& [deposit, prompt, medium] = from;
   Photon photon;
   photon.region = deposit.region;
   photon.ray.keeps_phases = scene.keeps_phases;
@@ -216,10 +231,7 @@ Photon ScintillationSource::emit(const scene::Scene& scene, const EventLight& li
     photon.ray.direction = core::sample_isotropic(rng);
     photon.ray.polarisation =
         unpolarised_ ? core::Vec3(core::Vec3::Zero()) : core::sample_polarisation(photon.ray.direction, rng);
-    photon.wavelength_nm = prompt ? cherenkov_[medium]->sample_wavelength(deposit.energy_keV, rng)
-                                  : spectrum_of(scene, medium, deposit).sample(rng.uniform());
-    photon.time_ns =
-        deposit.time_ns + (prompt ? 0.0 : sample_decay_of(scene.media[medium].medium(), deposit, rng));
+    set_colour(scene, from, photon, rng);
     if (deposit.step) photon.time_ns += time_along(*deposit.step, along);
   }
   photon.optics = scene.optics.at(medium, photon.wavelength_nm);
@@ -229,6 +241,29 @@ Photon ScintillationSource::emit(const scene::Scene& scene, const EventLight& li
   else
     emit_isotropic(scene, photon, rng);
   return photon;
+}
+
+void ScintillationSource::emit_together(const scene::Scene& scene, const EventLight& light,
+                                        std::span<EmittedPhoton* const> photons, int lane_width) const {
+  const EmissionLanes lanes(lane_width);
+  const auto of_step = [&](const EmittedPhoton* emitted) {
+    return cause_of(scene, light, emitted->number).deposit.step.has_value();
+  };
+  if (!lanes.available() || std::any_of(photons.begin(), photons.end(), of_step))
+    return LightSource::emit_together(scene, light, photons, lane_width);
+  lanes.begin(photons);
+  lanes.emit_isotropic(photons, unpolarised_);
+  for (EmittedPhoton* const emitted : photons) {
+    Photon& photon = emitted->photon;
+    const Cause from = cause_of(scene, light, emitted->number);
+    photon.position = from.deposit.position;
+    photon.region = from.deposit.region;
+    photon.ray.keeps_phases = scene.keeps_phases;
+    set_colour(scene, from, photon, emitted->rng);
+    photon.optics = scene.optics.at(from.medium, photon.wavelength_nm);
+  }
+  lanes.draw_depths(photons);
+  for (EmittedPhoton* const emitted : photons) source::emit_isotropic(scene, emitted->photon, emitted->rng);
 }
 
 }  // namespace scintray::source

@@ -4,6 +4,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "scintray/core/curve.hpp"
@@ -37,9 +38,20 @@ class ScintillationSource : public LightSource {
              EventLight& light) const override;
   Photon emit(const scene::Scene& scene, const EventLight& light, std::uint64_t photon,
               core::Rng& rng) const override;
+  void emit_together(const scene::Scene& scene, const EventLight& light, std::span<EmittedPhoton* const> photons,
+                     int lane_width) const override;
   std::vector<core::RegionId> regions() const override;
 
  private:
+  /// What a photon comes from.
+  struct Cause {
+    const Deposit& deposit;
+    bool prompt;  ///< Cherenkov light
+    core::MediumId medium;
+  };
+  static Cause cause_of(const scene::Scene& scene, const EventLight& light, std::uint64_t photon);
+  /// Wavelength, and time of emission after the deposit.
+  void set_colour(const scene::Scene& scene, const Cause& from, Photon& photon, core::Rng& rng) const;
   void add_steps(const scene::Scene& scene, const std::array<double, 2>& range_nm);
   std::uint64_t scintillation_photons(const optics::Medium& medium, core::MediumId at, const Deposit& deposit,
                                       core::Rng& rng) const;

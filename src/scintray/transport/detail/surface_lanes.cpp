@@ -116,15 +116,16 @@ Step SurfaceLanes::step_at_end(const Left& left, source::Photon& photon, core::R
 /// Puts the photon's random stream into the pool.
 void SurfaceLanes::give_numbers(std::size_t slot, const core::Rng& rng) {
   const core::Rng::State stream = rng.state();
-  pool_.drawn[slot] = 4 * stream.counter[0] + static_cast<std::uint64_t>(stream.used) - 4;
+  pool_.drawn[slot] = 4 * stream.counter[0] + static_cast<std::uint64_t>(stream.used) - core::Rng::kDrawn;
   for (std::size_t i = 0; i < 4; ++i) pool_.counter[i][slot] = stream.counter[i];
   for (std::size_t i = 0; i < 2; ++i) pool_.key[i][slot] = stream.key[i];
-  if (stream.used == 4) return;
   std::uint64_t* const numbers = pool_.numbers[slot];
-  const std::size_t first = 4 * (stream.counter[0] - 1) % LanePool::kNumbers;
-  for (std::size_t i = 0; i < 4; ++i) numbers[first + i] = stream.buffer[i];
-  if (first > 0) return;
-  for (std::size_t i = 0; i < 4; ++i) numbers[LanePool::kNumbers + i] = stream.buffer[i];
+  for (std::size_t block = static_cast<std::size_t>(stream.used) / 4; block < 2; ++block) {
+    const std::size_t first = 4 * (stream.counter[0] + block - 2) % LanePool::kNumbers;
+    for (std::size_t i = 0; i < 4; ++i) numbers[first + i] = stream.drawn[4 * block + i];
+    if (first > 0) continue;
+    for (std::size_t i = 0; i < 4; ++i) numbers[LanePool::kNumbers + i] = stream.drawn[4 * block + i];
+  }
 }
 
 /// Sets the photon's random stream to where the pool has drawn up to.
@@ -132,9 +133,9 @@ void SurfaceLanes::take_numbers(std::size_t slot, core::Rng& rng) const {
   core::Rng::State stream = rng.state();
   const std::uint64_t drawn = pool_.drawn[slot], in_block = drawn % 4;
   stream.counter[0] = (drawn + 3) / 4;
-  stream.used = static_cast<int>(in_block == 0 ? 4 : in_block);
+  stream.used = static_cast<int>(in_block == 0 ? 8 : 4 + in_block);  // of the second block
   const std::size_t first = (drawn - in_block) % LanePool::kNumbers;
-  for (std::size_t i = 0; i < 4; ++i) stream.buffer[i] = pool_.numbers[slot][first + i];
+  for (std::size_t i = 0; i < 4; ++i) stream.drawn[4 + i] = pool_.numbers[slot][first + i];
   rng.go_on_from(stream);
 }
 

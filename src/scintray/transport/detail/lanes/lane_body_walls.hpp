@@ -5,7 +5,7 @@
 
 #include "scintray/mesh/cylinder_arrival.hpp"
 #include "scintray/mesh/quadric_laws.hpp"
-#include "scintray/transport/detail/lanes/lane_fours.hpp"
+#include "scintray/core/lane_fours.hpp"
 #include "scintray/transport/detail/lanes/lane_kernel.hpp"
 #include "scintray/transport/detail/lanes/lane_kernel_of.hpp"
 #include "scintray/transport/detail/lanes/lane_numbers.hpp"
@@ -13,6 +13,8 @@
 
 namespace scintray::transport {
 namespace {
+
+using core::LaneFours;
 
 /// @tparam kShape  of all quadrics
 template <typename Real, mesh::QuadricShape kShape>
@@ -29,18 +31,23 @@ class LaneBodyWalls {
     Real distance_mm{std::numeric_limits<double>::infinity()}, plane{0.0};
     Vector normal{Real(0.0), Real(0.0), Real(0.0)};  ///< of a plane
   };
-  explicit LaneBodyWalls(const LaneBody& body) : body_(body) {
-    for (double& face : left_.of) face = kNoFace;
+  /// @param any  a photon, whose numbers per face serve lanes without one
+  LaneBodyWalls(const LaneBody& body, const LaneWork& any) : body_(body) {
+    for (const double*& least_sin2 : least_sin2_) least_sin2 = any.least_sin2;
   }
 
-  void set(std::size_t lane, const LaneWork& photon) { left_.of[lane] = photon.left; }
-  void get(std::size_t lane, LaneWork& photon) const { photon.left = left_.of[lane]; }
-  void copy(std::size_t from, std::size_t to) { left_.of[to] = left_.of[from]; }
-  void leave(const Ahead& ahead) { left_.store(ahead.plane); }
-  void leave(const Ahead& ahead, const Mask& stays) { left_.store(select(stays, left_.load(), ahead.plane)); }
+  void set(std::size_t lane, const Mask& here, const LaneWork& photon) {
+    left_ = select(here, Real(photon.left), left_);
+    least_sin2_[lane] = photon.least_sin2;
+  }
+  /// Stores what get() needs.
+  void store() { stored_left_.store(left_); }
+  void get(std::size_t lane, LaneWork& photon) const { photon.left = stored_left_.of[lane]; }
+  void leave(const Ahead& ahead) { left_ = ahead.plane; }
+  void leave(const Ahead& ahead, const Mask& stays) { left_ = select(stays, left_, ahead.plane); }
 
   Ahead nearest(const Vector& local, const Vector& direction) const {
-    const Real zero(0.0), left = left_.load();
+    const Real zero(0.0);
     Ahead ahead;
     const auto take = [&ahead](const Mask& closer, const Real& distance_mm, const Real& face) {
       ahead.distance_mm = select(closer, distance_mm, ahead.distance_mm);
@@ -57,7 +64,7 @@ class LaneBodyWalls {
     for (std::uint32_t i = body_.planes; i < body_.count; ++i) {
       mesh::QuadricOnRayOf<Real> on_ray = quadric(body_.faces[i]).on_ray(local, direction);
       const Real number(static_cast<double>(i));
-      on_ray.c = select(left == number, zero, on_ray.c);
+      on_ray.c = select(left_ == number, zero, on_ray.c);
       const Real distance = mesh::distance_out(on_ray);
       take(distance < ahead.distance_mm, distance, number);
     }
@@ -68,15 +75,20 @@ class LaneBodyWalls {
     return ahead.distance_mm == Real(std::numeric_limits<double>::infinity());
   }
   /// Moves the point `there` (world) onto the face.
-  LaneIncidence<Real> arrive(const LaneNumbers<Real>& faces, const Ahead& ahead, const Vector& direction,
-                             const Vector& centre, Vector& there) const {
+  LaneArrival<Real> arrive(const Ahead& ahead, const Vector& direction, const Vector& centre,
+                           Vector& there) const {
     const Real zero(0.0);
+    LaneNumbers<Real> faces;
+    faces.store(ahead.plane);
+    const double* least_sin2[Real::kWidth];
+    for (std::size_t lane = 0; lane < Real::kWidth; ++lane)
+      least_sin2[lane] = least_sin2_[lane] + static_cast<std::size_t>(faces.of[lane]);
     const Mask flat = ahead.plane < Real(static_cast<double>(body_.planes));
     const Wall wall = body_.count - body_.planes == 1 ? only_wall() : walls_at(faces);
     const mesh::FootOf<Real> round = foot(wall, there - centre);
     there = there + select(flat, Vector{zero, zero, zero}, round.step);
     const Vector normal = select(flat, ahead.normal, wall.outwards * round.normal);
-    return {normal, dot(direction, normal)};
+    return {normal, dot(direction, normal), load_each<Real>(least_sin2)};
   }
 
  private:
@@ -117,7 +129,9 @@ class LaneBodyWalls {
   static Vector vector_of(const double (&of)[3]) { return {Real(of[0]), Real(of[1]), Real(of[2])}; }
 
   const LaneBody& body_;
-  LaneNumbers<Real> left_;
+  Real left_{kNoFace};
+  LaneNumbers<Real> stored_left_;
+  const double* least_sin2_[Real::kWidth];
 };
 
 /// Inlined, so that a profile has the time under the name of the kernel, which is known outside its file.

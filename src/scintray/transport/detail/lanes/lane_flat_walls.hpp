@@ -2,53 +2,111 @@
 /// The walls of a region that is bounded by planes, for LanePropagation.
 
 #include "scintray/transport/detail/lanes/lane_kernel.hpp"
+#include "scintray/transport/detail/lanes/lane_kernel_of.hpp"
 #include "scintray/transport/detail/lanes/lane_numbers.hpp"
 #include "scintray/transport/detail/lanes/lane_planes.hpp"
 
 namespace scintray::transport {
 namespace {
 
-template <typename Real>
+/// Planes of a region up to which what is needed of the nearest one is selected with it; beyond it is loaded,
+/// for each lane from a place of its own.
+inline constexpr std::uint32_t kFewPlanes = 8;
+
+/// @tparam kFew  there are no more than kFewPlanes
+template <typename Real, bool kFew>
 class LaneFlatWalls {
   using Vector = core::Triple<Real>;
+  using Mask = typename Real::Mask;
 
  public:
   using Number = Real;
   using Region = LanePlanes;
-  using Ahead = LaneAhead<Real>;
-  explicit LaneFlatWalls(const LanePlanes& planes) : planes_(planes) {}
+  /// The nearest plane; where there are few with its numbers.
+  struct Ahead : LaneAhead<Real> {
+    Vector normal{Real(0.0), Real(0.0), Real(0.0)};
+    Real least_sin2{0.0};
+  };
 
+  /// @param any  a photon, whose numbers per face serve lanes without one
+  LaneFlatWalls(const LanePlanes& planes, const LaneWork& any) : planes_(planes) {
+    for (const double*& of_lane : least_sin2_) of_lane = any.least_sin2;
+    if constexpr (kFew)
+      for (std::uint32_t i = 0; i < planes.count; ++i) few_least_sin2_[i] = Real(any.least_sin2[i]);
+  }
+
+  void set(std::size_t lane, const Mask& here, const LaneWork& photon) {
+    if constexpr (kFew)
+      for (std::uint32_t i = 0; i < planes_.count; ++i)
+        few_least_sin2_[i] = select(here, Real(photon.least_sin2[i]), few_least_sin2_[i]);
+    else
+      least_sin2_[lane] = photon.least_sin2;
+  }
   // Planes have no state in a lane.
-  void set(std::size_t, const LaneWork&) {}
+  void store() {}
   void get(std::size_t, LaneWork&) const {}
-  void copy(std::size_t, std::size_t) {}
-  void leave(const LaneAhead<Real>&) {}
-  void leave(const LaneAhead<Real>&, const typename Real::Mask&) {}
+  void leave(const Ahead&) {}
+  void leave(const Ahead&, const Mask&) {}
 
-  LaneAhead<Real> nearest(const Vector& local, const Vector& direction) const {
-    LaneAhead<Real> ahead;
-    const auto take = [&](std::uint32_t i, const Real& second_mm) {
-      const double* const p = planes_.plane(i);
-      ahead.take({Real(p[0]), Real(p[1]), Real(p[2])}, Real(p[3]), second_mm, local, direction, i);
-    };
-    for (std::uint32_t i = 0; i < planes_.opposite; i += 2) take(i, Real(planes_.plane(i + 1)[3]));
-    for (std::uint32_t i = planes_.opposite; i < planes_.count; ++i)
-      take(i, Real(std::numeric_limits<double>::infinity()));
+  Ahead nearest(const Vector& local, const Vector& direction) const {
+    Ahead ahead;
+    for (std::uint32_t i = 0; i < planes_.opposite; i += 2) take({i, i + 1}, local, direction, ahead);
+    for (std::uint32_t i = planes_.opposite; i < planes_.count; ++i) take({i, i}, local, direction, ahead);
     return ahead;
   }
   /// Whether a lane's ray leaves through no wall: never, as the planes enclose the region.
-  typename Real::Mask none(const LaneAhead<Real>& ahead) const { return ahead.cosine < Real(0.0); }
-  LaneIncidence<Real> arrive(const LaneNumbers<Real>& faces, const LaneAhead<Real>& ahead, const Vector&,
-                             const Vector&, Vector&) const {
-    LaneNumbers3<Real> normals;
-    for (std::size_t lane = 0; lane < Real::kWidth; ++lane)
-      normals.set(lane, planes_.plane(static_cast<std::size_t>(faces.of[lane])));
-    return {normals.load(), ahead.cosine};
+  Mask none(const Ahead& ahead) const { return ahead.cosine < Real(0.0); }
+  LaneArrival<Real> arrive(const Ahead& ahead, const Vector&, const Vector&, Vector&) const {
+    if constexpr (kFew) return {ahead.normal, ahead.cosine, ahead.least_sin2};
+    LaneNumbers<Real> faces;
+    faces.store(ahead.plane);
+    const double *planes[Real::kWidth], *least_sin2[Real::kWidth];
+    for (std::size_t lane = 0; lane < Real::kWidth; ++lane) {
+      const auto face = static_cast<std::size_t>(faces.of[lane]);
+      planes[lane] = planes_.plane(face);
+      least_sin2[lane] = least_sin2_[lane] + face;
+    }
+    core::LaneFours<Real> normals;
+    load_fours(planes, normals);
+    return {{normals.of[0], normals.of[1], normals.of[2]}, ahead.cosine, load_each<Real>(least_sin2)};
   }
 
  private:
+  /// Two opposite planes, or one.
+  struct Planes {
+    std::uint32_t first, second;
+  };
+  void take(const Planes& planes, const Vector& local, const Vector& direction, Ahead& ahead) const {
+    const double *const p = planes_.plane(planes.first), *const q = planes_.plane(planes.second);
+    const bool paired = planes.first != planes.second;
+    const Vector normal = vector_of(p);
+    const LaneTaken<Real> taken =
+        ahead.take(normal, Real(p[3]), Real(paired ? q[3] : std::numeric_limits<double>::infinity()), local,
+                   direction, planes.first);
+    if constexpr (kFew) {
+      ahead.normal = select(taken.closer, select(taken.first, normal, vector_of(q)), ahead.normal);
+      const Real least_sin2 =
+          select(taken.first, few_least_sin2_[planes.first], few_least_sin2_[planes.second]);
+      ahead.least_sin2 = select(taken.closer, least_sin2, ahead.least_sin2);
+    }
+  }
+  static Vector vector_of(const double* plane) { return {Real(plane[0]), Real(plane[1]), Real(plane[2])}; }
+
   const LanePlanes& planes_;
+  const double* least_sin2_[Real::kWidth];      ///< of each lane, per face
+  Real few_least_sin2_[kFew ? kFewPlanes : 1];  ///< of each face
 };
+
+/// Inlined, so that a profile has the time under the name of the kernel, which is known outside its file.
+template <typename Real>
+[[gnu::always_inline]] inline void propagate_between_planes(const LanePlanes& planes,
+                                                            const LaneLimits& limits, LaneWork* photons,
+                                                            std::size_t count) {
+  if (planes.count <= kFewPlanes)
+    LanePropagation<LaneFlatWalls<Real, true>>(planes, limits, photons, count).run();
+  else
+    LanePropagation<LaneFlatWalls<Real, false>>(planes, limits, photons, count).run();
+}
 
 }  // namespace
 }  // namespace scintray::transport

@@ -17,6 +17,7 @@ enum class LaneEnd : std::uint32_t {
   boundary,  ///< the photon is on a face at which no total reflection follows
   total,     ///< it was totally reflected, and the limits are reached
   unclear,   ///< the next face leads to several regions; the photon is where its last segment began
+  unfinished,  ///< the photon was totally reflected, and is to be propagated on beside others
 };
 
 /// Planes around one shape of region, in the region's frame (mm).
@@ -67,7 +68,7 @@ struct LaneWork {
   double left;  ///< of a body: face at which the photon is, as it was reflected there; kNoFace: at none
   // Results.
   double cosine;           ///< of incidence on the face, at a boundary and at a total reflection
-  std::uint32_t face;      ///< reached, or unclear; not for LaneEnd::bulk
+  std::uint32_t face;      ///< reached, or unclear; not for LaneEnd::bulk and unfinished
   std::uint32_t segments;  ///< straight segments; the last of an unclear end is not counted
   LaneEnd end;
 };
@@ -77,7 +78,8 @@ struct LaneLimits {
   double interactions, time_ns;
 };
 
-/// Propagates each of `count` photons to its end, exactly as propagate() does it one by one.
+/// Propagates each of `count` photons, one or more, to its end, exactly as propagate() does it one by one; of
+/// more than fill the lanes the last ones may be left unfinished, so that lanes are not empty.
 using PropagateLanes = void (*)(const LanePlanes& planes, const LaneLimits& limits, LaneWork* photons,
                                 std::size_t count);
 

@@ -2,12 +2,14 @@
 /// The photons of the pool (lane_pool.hpp) that are in the lanes of one vector, and their random numbers.
 
 #include "scintray/core/philox_laws.hpp"
-#include "scintray/transport/detail/lanes/lane_fours.hpp"
+#include "scintray/core/lane_fours.hpp"
 #include "scintray/transport/detail/lanes/lane_pool.hpp"
 
 namespace scintray::transport {
 
 namespace {
+
+using core::LaneFours;
 
 /// Method of drawing random numbers: a block in each lane, or with scalar instructions only for lanes that
 /// lack numbers, which is faster where vectors are short, as their products have 32 bits.

@@ -4,10 +4,16 @@
 
 #include <limits>
 
-#include "scintray/transport/detail/lanes/lane_number.hpp"
+#include "scintray/core/lane_number.hpp"
 
 namespace scintray::transport {
 namespace {
+
+/// Of two planes, in each lane.
+template <typename Real>
+struct LaneTaken {
+  core::MaskOf<Real> closer, first;
+};
 
 /// The nearest plane so far, the distance (mm) to it, and the cosine between ray and normal.
 template <typename Real>
@@ -20,8 +26,9 @@ struct LaneAhead {
   /// @param first_mm   product of its normal and any point of it
   /// @param second_mm  likewise of the other, whose normal is the opposite; infinite: there is none
   /// @param from       the ray's origin
-  void take(const core::Triple<Real>& normal, const Real& first_mm, const Real& second_mm,
-            const core::Triple<Real>& from, const core::Triple<Real>& direction, double first) {
+  /// @return which lanes these planes are nearer in, and of which the first one is ahead
+  LaneTaken<Real> take(const core::Triple<Real>& normal, const Real& first_mm, const Real& second_mm,
+                       const core::Triple<Real>& from, const core::Triple<Real>& direction, double first) {
     const Real signed_along = dot(normal, direction), height = dot(normal, from);
     const auto along_first = signed_along > Real(0.0);
     const Real along = magnitude(signed_along);
@@ -30,6 +37,7 @@ struct LaneAhead {
     distance_mm = select(closer, distance, distance_mm);
     plane = select(closer, select(along_first, Real(first), Real(first + 1.0)), plane);
     cosine = select(closer, along, cosine);
+    return {closer, along_first};
   }
 };
 

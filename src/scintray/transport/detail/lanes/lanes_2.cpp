@@ -1,17 +1,16 @@
 #include "scintray/transport/detail/lanes/lane_body_walls.hpp"
 #include "scintray/transport/detail/lanes/lane_flat_walls.hpp"
-#include "scintray/transport/detail/lanes/lane_kernel_of.hpp"
 
 namespace scintray::transport {
 
 void propagate_lanes_2(const LanePlanes& planes, const LaneLimits& limits, LaneWork* photons,
                        std::size_t count) {
-  LanePropagation<LaneFlatWalls<LaneReal<xsimd::sse2>>>(planes, limits, photons, count).run();
+  propagate_between_planes<core::LaneReal<xsimd::sse2>>(planes, limits, photons, count);
 }
 
 void propagate_lanes_in_body_2(const LaneBody& body, const LaneLimits& limits, LaneWork* photons,
                                std::size_t count) {
-  propagate_in_body<LaneReal<xsimd::sse2>>(body, limits, photons, count);
+  propagate_in_body<core::LaneReal<xsimd::sse2>>(body, limits, photons, count);
 }
 
 }  // namespace scintray::transport

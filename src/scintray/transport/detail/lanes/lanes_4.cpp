@@ -1,20 +1,19 @@
 #include "scintray/transport/detail/lanes/lane_body_walls.hpp"
 #include "scintray/transport/detail/lanes/lane_flat_walls.hpp"
-#include "scintray/transport/detail/lanes/lane_kernel_of.hpp"
 #include "scintray/transport/detail/lanes/lane_passes.hpp"
 
 namespace scintray::transport {
 
 void propagate_lanes_4(const LanePlanes& planes, const LaneLimits& limits, LaneWork* photons,
                        std::size_t count) {
-  LanePropagation<LaneFlatWalls<LaneReal<xsimd::avx2>>>(planes, limits, photons, count).run();
+  propagate_between_planes<core::LaneReal<xsimd::avx2>>(planes, limits, photons, count);
 }
 
 void propagate_lanes_in_body_4(const LaneBody& body, const LaneLimits& limits, LaneWork* photons,
                                std::size_t count) {
-  propagate_in_body<LaneReal<xsimd::avx2>>(body, limits, photons, count);
+  propagate_in_body<core::LaneReal<xsimd::avx2>>(body, limits, photons, count);
 }
 
-void run_lanes_4(LanePool& pool) { LanePasses<LaneRealPair<xsimd::avx2>, LaneDraws::one_by_one>(pool).run(); }
+void run_lanes_4(LanePool& pool) { LanePasses<core::LaneRealPair<xsimd::avx2>, LaneDraws::one_by_one>(pool).run(); }
 
 }  // namespace scintray::transport

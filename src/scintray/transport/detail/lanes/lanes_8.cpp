@@ -1,22 +1,21 @@
 #include "scintray/transport/detail/lanes/lane_body_walls.hpp"
 #include "scintray/transport/detail/lanes/lane_flat_walls.hpp"
-#include "scintray/transport/detail/lanes/lane_kernel_of.hpp"
 #include "scintray/transport/detail/lanes/lane_passes.hpp"
 
 namespace scintray::transport {
 
 void propagate_lanes_8(const LanePlanes& planes, const LaneLimits& limits, LaneWork* photons,
                        std::size_t count) {
-  LanePropagation<LaneFlatWalls<LaneReal<xsimd::avx512f>>>(planes, limits, photons, count).run();
+  propagate_between_planes<core::LaneReal<xsimd::avx512f>>(planes, limits, photons, count);
 }
 
 void propagate_lanes_in_body_8(const LaneBody& body, const LaneLimits& limits, LaneWork* photons,
                                std::size_t count) {
-  propagate_in_body<LaneReal<xsimd::avx512f>>(body, limits, photons, count);
+  propagate_in_body<core::LaneReal<xsimd::avx512f>>(body, limits, photons, count);
 }
 
 void run_lanes_8(LanePool& pool) {
-  LanePasses<LaneRealPair<xsimd::avx512f>, LaneDraws::in_lanes>(pool).run();
+  LanePasses<core::LaneRealPair<xsimd::avx512f>, LaneDraws::in_lanes>(pool).run();
 }
 
 }  // namespace scintray::transport

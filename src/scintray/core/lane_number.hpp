@@ -8,7 +8,7 @@
 #include "scintray/core/number.hpp"
 #include "scintray/core/philox_laws.hpp"
 
-namespace scintray::transport {
+namespace scintray::core {
 
 template <typename Arch>
 struct LaneReal;
@@ -26,10 +26,33 @@ static inline unsigned bits_of_lanes(__m256d lanes) {
 static inline unsigned bits_of_lanes(__mmask8 lanes) { return lanes; }
 #endif
 
+// The reverse.
+static inline void set_lanes(unsigned bits, __m128d& lanes) {
+  const __m128i each = _mm_set_epi64x(2, 1), common = _mm_and_si128(_mm_set1_epi64x(bits), each);
+  const __m128i equal = _mm_cmpeq_epi32(common, each);  // of both halves; the upper ones are 0 in both
+  lanes = _mm_castsi128_pd(_mm_and_si128(equal, _mm_shuffle_epi32(equal, _MM_SHUFFLE(2, 3, 0, 1))));
+}
+#ifdef __AVX2__
+static inline void set_lanes(unsigned bits, __m256d& lanes) {
+  const __m256i each = _mm256_set_epi64x(8, 4, 2, 1);
+  lanes = _mm256_castsi256_pd(_mm256_cmpeq_epi64(_mm256_and_si256(_mm256_set1_epi64x(bits), each), each));
+}
+#endif
+#ifdef __AVX512F__
+static inline void set_lanes(unsigned bits, __mmask8& lanes) { lanes = static_cast<__mmask8>(bits); }
+#endif
+
 /// The results of a comparison in each lane.
 template <typename Arch>
 struct LaneMask {
   xsimd::batch_bool<double, Arch> lanes;
+
+  /// @param bits  as of lanes_of()
+  static LaneMask of(unsigned bits) {
+    typename xsimd::batch_bool<double, Arch>::register_type lanes;
+    set_lanes(bits, lanes);
+    return {lanes};
+  }
 
   friend LaneMask operator&(const LaneMask& a, const LaneMask& b) { return {a.lanes & b.lanes}; }
   friend LaneMask operator|(const LaneMask& a, const LaneMask& b) { return {a.lanes | b.lanes}; }
@@ -75,13 +98,13 @@ struct LaneBits {
   /// For whole numbers below 2^53: the upper and the lower 32 bits, each as the last bits of a number whose
   /// other bits are fixed.
   friend LaneReal<Arch> value_of(const LaneBits& whole) {
-    const LaneReal<Arch> upper = number_of((whole >> 32) | LaneBits(core::bits_of(0x1.0p84)));
+    const LaneReal<Arch> upper = number_of((whole >> 32) | LaneBits(bits_of(0x1.0p84)));
     const LaneReal<Arch> lower =
-        number_of((whole & LaneBits(0xffffffffULL)) | LaneBits(core::bits_of(0x1.0p52)));
+        number_of((whole & LaneBits(0xffffffffULL)) | LaneBits(bits_of(0x1.0p52)));
     return (upper - LaneReal<Arch>(0x1.00000001p84)) + lower;
   }
   /// By four products of 32 bits.
-  friend core::WideProduct<LaneBits> wide_product(const LaneBits& a, const LaneBits& b) {
+  friend WideProduct<LaneBits> wide_product(const LaneBits& a, const LaneBits& b) {
     const LaneBits mask(0xffffffffULL), a_upper = a >> 32, b_upper = b >> 32;
     const auto product = [](const LaneBits& x, const LaneBits& y) {
       return LaneBits(Lanes(low_products(x.lanes, y.lanes)));
@@ -188,8 +211,8 @@ struct LaneBitsPair {
   friend LaneBitsPair operator>>(const LaneBitsPair& x, int count) { return {x.a >> count, x.b >> count}; }
   friend LaneRealPair<Arch> number_of(const LaneBitsPair& x) { return {number_of(x.a), number_of(x.b)}; }
   friend LaneRealPair<Arch> value_of(const LaneBitsPair& x) { return {value_of(x.a), value_of(x.b)}; }
-  friend core::WideProduct<LaneBitsPair> wide_product(const LaneBitsPair& x, const LaneBitsPair& y) {
-    const core::WideProduct<One> first = wide_product(x.a, y.a), second = wide_product(x.b, y.b);
+  friend WideProduct<LaneBitsPair> wide_product(const LaneBitsPair& x, const LaneBitsPair& y) {
+    const WideProduct<One> first = wide_product(x.a, y.a), second = wide_product(x.b, y.b);
     return {{first.high, second.high}, {first.low, second.low}};
   }
 };
@@ -235,4 +258,4 @@ struct LaneRealPair {
   friend LaneRealPair magnitude(const LaneRealPair& x) { return {magnitude(x.a), magnitude(x.b)}; }
 };
 
-}  // namespace scintray::transport
+}  // namespace scintray::core

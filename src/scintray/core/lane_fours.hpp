@@ -2,9 +2,9 @@
 /// Loads and stores of four numbers that follow each other in memory, and loads of single ones, at a place of
 /// its own for each lane.
 
-#include "scintray/transport/detail/lanes/lane_number.hpp"
+#include "scintray/core/lane_number.hpp"
 
-namespace scintray::transport {
+namespace scintray::core {
 
 /// Four numbers of each lane.
 template <typename Real>
@@ -130,4 +130,4 @@ void load_fours(const double* const* at, LaneFours<LaneRealPair<Arch>>& to) {
   for (int i = 0; i < 4; ++i) to.of[i] = {a.of[i], b.of[i]};
 }
 
-}  // namespace scintray::transport
+}  // namespace scintray::core

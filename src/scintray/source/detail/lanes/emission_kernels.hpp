@@ -1,0 +1,48 @@
+#pragma once
+/// Random numbers, directions and optical depths of photons that are emitted together, in the lanes of vector
+/// registers.
+///
+/// This header has only plain data: it is included by files that are compiled for instruction sets which not
+/// every processor has, and a function of a common header compiled there could be the one that the linker
+/// keeps for all files.
+
+#include <cstddef>
+#include <cstdint>
+
+namespace scintray::source {
+
+/// Photons that are emitted together, each at one index of every array.
+inline constexpr std::size_t kEmitted = 8;
+
+/// Streams of random numbers, and where the numbers of their next two blocks go.
+struct StreamLanes {
+  alignas(64) std::uint64_t counter[4][kEmitted];
+  alignas(64) std::uint64_t key[2][kEmitted];
+  std::uint64_t* numbers[kEmitted];
+};
+/// Light emitted in all directions alike.
+struct LightLanes {
+  const double* numbers[kEmitted];  ///< the bits of four random numbers of each photon
+  // Results.
+  alignas(64) double direction[3][kEmitted];
+  alignas(64) double polarisation[3][kEmitted];
+  alignas(64) double tried[kEmitted];  ///< numbers that the polarisation took: 1 or 2; 3: neither served
+};
+/// Optical depths, exponential with mean 1.
+struct DepthLanes {
+  alignas(64) std::uint64_t bits[kEmitted];  ///< random
+  alignas(64) double depth[kEmitted];
+};
+
+/// Null where there are none for a width.
+struct EmissionKernels {
+  void (*draw)(StreamLanes&) = nullptr;
+  void (*emit)(LightLanes&) = nullptr;
+  void (*draw_depths)(DepthLanes&) = nullptr;
+};
+
+// Defined where its instruction set is compiled.
+EmissionKernels emission_kernels_4();
+EmissionKernels emission_kernels_8();
+
+}  // namespace scintray::source
