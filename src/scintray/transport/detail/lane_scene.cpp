@@ -1,6 +1,7 @@
 #include "scintray/transport/detail/surface_lanes.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "scintray/optics/facet_laws.hpp"
@@ -35,6 +36,18 @@ void set_facets(const optics::FacetSurface& facets, LaneFace& face) {
   face.sin_widest = limits.of_widest.sine;
   face.cos_widest = limits.of_widest.cosine;
   face.by_area = limits.by_area ? 1.0 : 0.0;
+}
+
+/// The least 1 - cosine^2 for which Fresnel's equations (optics::RefractionOf) find total reflection, to the
+/// last bit; for a surface that is met as Fresnel's equations see it, not by the critical angle of a plain
+/// interface. Products of positive numbers are monotonic, so that there is one.
+double least_total_sin2(double n1, double n2) {
+  const double ratio = n1 / n2, ratio2 = ratio * ratio;
+  if (!(ratio2 > 1.0)) return kNoTotalReflection;
+  double least = 1.0 / ratio2;
+  while (ratio2 * least < 1.0) least = std::nextafter(least, 2.0);
+  while (ratio2 * std::nextafter(least, 0.0) >= 1.0) least = std::nextafter(least, 0.0);
+  return least;
 }
 
 /// True when photons meet the same at two links: the same surface, from the same side, and then the same
@@ -169,6 +182,8 @@ void LaneScene::set_wavelength(const source::Photon& photon, const std::vector<A
       at.index_behind = painted ? here : stack.gap_index(photon.wavelength_nm);
       at.reflectance = set.surface.reflector->reflectance(photon.wavelength_nm);
     }
+    if (!interface.plain && set.surface.micro == Micro::smooth)
+      at.least_sin2 = least_total_sin2(here, at.index_behind);
     for (const std::uint32_t plane : set.planes) {  // alike but for their normals
       std::copy_n(faces[plane].normal, 3, at.normal);
       faces[plane] = at;

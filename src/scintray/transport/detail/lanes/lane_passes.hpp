@@ -37,6 +37,8 @@ class LanePasses : LanePhotons<Real, kDraws> {
   using Light = optics::LightRay<Real>;
   /// Facets are redrawn until at most this number of lanes lacks one; those wait for the next pass.
   static constexpr int kFewLanes = static_cast<int>(kWidth / 4);
+  /// Photons are propagated on while at least this number of lanes is between total reflections.
+  static constexpr int kManyLanes = static_cast<int>(3 * kWidth / 8);
 
  public:
   explicit LanePasses(LanePool& pool) : Photons(pool) {}
@@ -68,11 +70,12 @@ class LanePasses : LanePhotons<Real, kDraws> {
     const auto in = [&now](double state) { return now.state == Real(state); };
     Mask here = in(lane_state::kPropagate);
     if (any(here)) {
-      // Between total reflections no random number is needed.
+      // Between total reflections no random number is needed: photons are propagated until so many are at a
+      // surface that the stages there are worth their time.
       do {
         propagate(now, here);
         here = in(lane_state::kPropagate);
-      } while (all(here));
+      } while (__builtin_popcount(lanes_of(here)) >= kManyLanes);
     } else {
       load_faces(now);
     }

@@ -57,7 +57,7 @@ struct LaneFace {
   double kind;       ///< kSmooth, kFacets, kTable, kReflector; kBoundary, kUnclear: for the scalar code
 
   double index_behind;  ///< of the medium behind the microsurface
-  double least_sin2;    ///< of a plain surface: sine squared from which light is totally reflected
+  double least_sin2;    ///< of a smooth surface: sine squared from which light is totally reflected
   double counted;       ///< 1 when reaching it counts as an interaction
   double reflector;     ///< 1: behind the microsurface is a reflector; 0: the next region
 
