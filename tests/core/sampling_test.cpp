@@ -1,4 +1,5 @@
 #include "scintray/core/sampling.hpp"
+#include "scintray/core/normals.hpp"
 
 #include <doctest/doctest.h>
 
@@ -110,5 +111,23 @@ TEST_CASE("Frames are right-handed and orthonormal for every axis, the poles too
     CHECK(std::abs(frame.x.norm() - 1.0) < 1e-13);
     const Vec3 v(0.1, 0.2, 0.3);
     CHECK((frame.to_world(frame.to_local(v)) - v).norm() < 1e-13);
+  }
+}
+
+TEST_CASE("many normal deviates at once are those drawn one by one, to the last bit") {
+  for (const int width : lane_widths()) {
+    CAPTURE(width);
+    for (int drawn = 0; drawn < 9; ++drawn) {  // before, so that blocks are begun
+      CAPTURE(drawn);
+      for (const std::size_t size : {0, 1, 31, 32, 33, 550}) {
+        CAPTURE(size);
+        Rng together(3, StreamKind::sensor, 4, size), alone = together;
+        for (int i = 0; i < drawn; ++i) CHECK(together.bits() == alone.bits());
+        std::vector<double> deviates(size);
+        sample_normals(together, deviates, width);
+        for (const double deviate : deviates) CHECK(deviate == sample_normal(alone));
+        for (int i = 0; i < 9; ++i) CHECK(together.bits() == alone.bits());
+      }
+    }
   }
 }

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "scintray/core/lane_width.hpp"
 #include "scintray/simulation/simulation_point.hpp"
-#include "scintray/transport/lane_width.hpp"
 
 namespace scintray::test {
 
@@ -72,7 +72,7 @@ inline TracedPhotons first_block(const simulation::SimulationPoint& point, int l
 
 /// Checks that all widths of the lanes have the same photons, to the last bit.
 inline void check_same_in_all_widths(const simulation::SimulationPoint& point) {
-  const std::vector<int>& widths = transport::lane_widths();
+  const std::vector<int>& widths = core::lane_widths();
   if (widths.size() < 2) return;
   const TracedPhotons alone = first_block(point, 1);
   for (const int width : widths) {

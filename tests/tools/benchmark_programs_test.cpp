@@ -9,7 +9,7 @@
 #include "child_program.hpp"
 #include "pairing.hpp"
 #include "scintray/core/error.hpp"
-#include "scintray/transport/lane_width.hpp"
+#include "scintray/core/lane_width.hpp"
 #include "server.hpp"
 #include "support/folders.hpp"
 
@@ -111,7 +111,7 @@ TEST_CASE("Programs are compared at each lane width that is asked for") {
   MeasureSettings settings;
   settings.seconds = 0.01;
   settings.rounds = 1;
-  settings.lane_widths = transport::lane_widths();
+  settings.lane_widths = core::lane_widths();
   const auto pairs = pair_programs(bench_program(), bench_program(), {scene_named("polished")}, settings,
                                    [](const PairedFigures&) {});
   REQUIRE(pairs.size() == settings.lane_widths.size() + 1);  // the first with two threads as well

@@ -8,7 +8,7 @@
 #include "measure.hpp"
 #include "raw_embree.hpp"
 #include "scintray/core/error.hpp"
-#include "scintray/transport/lane_width.hpp"
+#include "scintray/core/lane_width.hpp"
 #include "workload.hpp"
 
 using namespace scintray;
@@ -95,7 +95,7 @@ TEST_CASE("A scene is measured at every lane width that is asked for, the first 
   MeasureSettings settings;
   settings.seconds = 0.01;
   settings.rounds = 1;
-  settings.lane_widths = transport::lane_widths();
+  settings.lane_widths = core::lane_widths();
   settings.profile = false;
   const BenchScene& scene = scene_named("polished");
   const Workload workload(scene, settings.lane_widths.front());

@@ -3,11 +3,11 @@
 #include <string>
 #include <vector>
 
+#include "scintray/core/lane_width.hpp"
 #include "scintray/core/sampling.hpp"
 #include "scintray/scene/build_scene.hpp"
 #include "scintray/scene_file/read_scene.hpp"
 #include "scintray/source/light_source.hpp"
-#include "scintray/transport/lane_width.hpp"
 #include "support/shared.hpp"
 
 using namespace scintray;
@@ -45,6 +45,8 @@ medium = "uniaxial"
 surface = "polished"
 [media.uniaxial]
 index = { n = 1.9, z = { n = 1.8 } }
+absorption = { length = "300 mm" }
+scattering = { none = true }
 [source]
 )" + source;
 }
@@ -61,9 +63,7 @@ Emitting emitting(const std::string& source) {
   return of;
 }
 
-std::string photon_keys(const std::string& keys) {
-  return "type = \"photons\"\nphotons = 1000\n" + keys;
-}
+std::string photon_keys(const std::string& keys) { return "type = \"photons\"\nphotons = 1000\n" + keys; }
 /// Deposits of many photons each.
 std::string energy_keys(const std::string& keys) {
   return "type = \"gamma_events\"\nevents = 3\nenergy = \"511 keV\"\nregion = { part = \"box_a\" }\n" + keys;
@@ -122,17 +122,18 @@ TEST_CASE("photons emitted together are those emitted one by one, to the last bi
       photon_keys("region = { part = \"box_a\" }\nwavelength = \"420 nm\"\ntime = \"0 ns\"\n"),
       photon_keys("region = { part = \"box_*\" }\nwavelength = \"emission\"\n"),
       photon_keys("region = { part = \"ball\" }\nwavelength = \"emission\"\n"),  // places are drawn again
-      photon_keys("region = { part = \"box_a\" }\nwavelength = \"emission\"\npolarisation = \"unpolarised\"\n"),
+      photon_keys(
+          "region = { part = \"box_a\" }\nwavelength = \"emission\"\npolarisation = \"unpolarised\"\n"),
       photon_keys("region = { part = \"twofold\" }\nwavelength = \"420 nm\"\ntime = \"0 ns\"\n"),
       photon_keys("position = [\"0 mm\", \"0 mm\", \"0 mm\"]\ndirection = [0, 0, 1]\n"
-              "wavelength = \"420 nm\"\n"),
+                  "wavelength = \"420 nm\"\n"),
       energy_keys(""),
       energy_keys("cherenkov = true\n"),
   };
   for (const std::string& source : sources) {
     CAPTURE(source);
     const Emitting of = emitting(source);
-    for (const int width : transport::lane_widths()) {
+    for (const int width : core::lane_widths()) {
       CAPTURE(width);
       for (std::uint64_t event = 0; event < std::min<std::uint64_t>(of.source->events(), 3); ++event)
         check_together(of, event, width);

@@ -5,11 +5,11 @@
 
 #include "io/tabulated.hpp"
 #include "physics/traced.hpp"
+#include "scintray/core/lane_width.hpp"
 #include "scintray/core/philox_laws.hpp"
 #include "scintray/core/sampling.hpp"
 #include "scintray/core/sampling_laws.hpp"
 #include "scintray/transport/batch.hpp"
-#include "scintray/transport/lane_width.hpp"
 #include "support/shared.hpp"
 
 using namespace scintray;
@@ -346,7 +346,7 @@ vacuum = ["sipm[*]"]
   const TracedPhotons alone = trace_with(scene, 1);
   REQUIRE(alone.result.photons >= 3'000);
   REQUIRE(alone.result.segments > 3'000);
-  for (const int width : transport::lane_widths()) {
+  for (const int width : core::lane_widths()) {
     CAPTURE(width);
     check_same(alone, trace_with(scene, width));
   }
@@ -369,7 +369,7 @@ TEST_CASE("The shipped scenes have the same results for every width of the lanes
   scene::SceneBuilder builder(tables_of_its_own());
   const TracedPhotons alone = trace_with(spec, 1, builder);
   REQUIRE(alone.result.segments > 500);
-  for (const int width : transport::lane_widths()) {
+  for (const int width : core::lane_widths()) {
     CAPTURE(width);
     check_same(alone, trace_with(spec, width, builder));
   }
@@ -385,7 +385,7 @@ TEST_CASE("Photons stay in lanes at facets, tables and reflectors, and each is r
   SUBCASE("table, a gap and a reflector") { scene = crystal("backed", kTableBacked); }
   SUBCASE("table of two wavelengths") { scene = two_wavelengths(); }
   const auto point = ready(scene_spec(scene));
-  for (const int width : transport::lane_widths()) {
+  for (const int width : core::lane_widths()) {
     CAPTURE(width);
     const auto kind = width < 4 ? transport::LaneKind::none : transport::LaneKind::surfaces;
     CHECK(transport::lane_kind(point->scene(), point->start(0, 0).region, width) == kind);
@@ -406,11 +406,11 @@ TEST_CASE("Photons stay in lanes at facets, tables and reflectors, and each is r
 TEST_CASE("Polished convex bodies of planes and quadrics are traced in lanes, others one by one") {
   const auto kind_of = [](const std::string& scene) {
     const auto point = ready(scene_spec(scene));
-    const int widest = transport::lane_widths().back();
+    const int widest = core::lane_widths().back();
     return transport::lane_kind(point->scene(), point->start(0, 0).region, widest);
   };
   const auto in_lanes =
-      transport::lane_widths().size() > 1 ? transport::LaneKind::smooth : transport::LaneKind::none;
+      core::lane_widths().size() > 1 ? transport::LaneKind::smooth : transport::LaneKind::none;
   CHECK(kind_of(round_crystal(kRod, "6 mm")) == in_lanes);
   CHECK(kind_of(round_crystal(R"(sphere = { radius = "2 mm" })", "6 mm")) == in_lanes);
   CHECK(kind_of(round_crystal(std::string(kRod) + "\nrotate = { axis = [1, 1, 0], angle = \"90 deg\" }",
@@ -422,7 +422,7 @@ TEST_CASE("Polished convex bodies of planes and quadrics are traced in lanes, ot
 }
 
 TEST_CASE("Photons in parts of one shape are propagated together, whichever part they are in") {
-  if (transport::lane_widths().back() == 1) return;
+  if (core::lane_widths().back() == 1) return;
   // Polished crystals in vacuum, each by itself; photons start in all of them in turn.
   const auto mean_group = [](int crystals) {
     const std::string count = "[" + std::to_string(crystals) + ", 1]";
@@ -449,7 +449,7 @@ photons = 4000
       if (scene.regions[core::RegionId(i)].accelerator == scene.regions[first].accelerator)
         starts.emplace_back(i);
     REQUIRE(starts.size() == static_cast<std::size_t>(crystals));
-    const int width = transport::lane_widths().back();
+    const int width = core::lane_widths().back();
     const transport::LaneKinds kinds = transport::lane_kinds(scene, width);
     REQUIRE(kinds[first] == transport::LaneKind::smooth);
     transport::PropagationLimits limits;
@@ -464,8 +464,7 @@ photons = 4000
       }
     };
     std::uint64_t next = 0;
-    batch.trace(4000, emit,
-                [&](std::uint64_t i, const transport::TracedPhoton&) { CHECK(i == next++); });
+    batch.trace(4000, emit, [&](std::uint64_t i, const transport::TracedPhoton&) { CHECK(i == next++); });
     CHECK(next == 4000);
     REQUIRE(batch.counts().groups > 0);
     return static_cast<double>(batch.counts().grouped) / static_cast<double>(batch.counts().groups);
@@ -502,7 +501,7 @@ TEST_CASE("Ends arrive in the order of photons, however many others end before o
   };
   transport::PropagationLimits limits;
   limits.interactions = 1000;
-  for (const int width : transport::lane_widths()) {
+  for (const int width : core::lane_widths()) {
     CAPTURE(width);
     const transport::LaneKinds kinds = transport::lane_kinds(scene, width);
     transport::Batch batch(scene, limits, width, kinds);
@@ -538,7 +537,7 @@ TEST_CASE("Blocks traced together have the results of blocks traced one by one")
   spec.run.threads = 1;
   scene::SceneBuilder builder(tables_of_its_own());
   const TracedPhotons alone = trace_with(spec, 1, builder);
-  const int width = transport::lane_widths().back();
+  const int width = core::lane_widths().back();
   check_same(alone, trace_with(spec, width, builder));
 
   // Ranges end where they did, with what is theirs, and a run ends at the block that is enough.
@@ -578,7 +577,11 @@ TEST_CASE("Laws over a number type have the bits of those for one photon") {
     const Vec3 sum = a + 2.0 * b;
     require(same_bits(dot(triple(a), triple(b)), a.dot(b)));
     require(same(cross(triple(a), triple(b)), a.cross(b)));
-    require(same(normalised(triple(sum)), sum.normalized()));
+    const Vec3 unit = (1.0 / sum.norm()) * sum;
+    require(same(normalised(triple(sum)), unit));
+    require((unit - sum.normalized()).norm() < 4e-16);
+    const double off = 1e-7 * (a.x());
+    require(std::abs(vec(rounded_to_unit(triple((1.0 + off) * a))).norm() - 1.0) < 4e-16 + 1.5 * off * off);
     const Frame frame = Frame::about(a);
     const Across<double> across(triple(a));
     require(same(across.x, frame.x) && same(across.y, frame.y));

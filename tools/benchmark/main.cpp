@@ -18,9 +18,9 @@
 #include "report_json.hpp"
 #include "report_text.hpp"
 #include "scintray/core/error.hpp"
+#include "scintray/core/lane_width.hpp"
 #include "scintray/core/output_file.hpp"
 #include "scintray/core/version.hpp"
-#include "scintray/transport/lane_width.hpp"
 #include "server.hpp"
 
 namespace {
@@ -41,7 +41,7 @@ constexpr const char* kAll = "all";
 
 std::vector<std::string> lane_width_words() {
   std::vector<std::string> words{kAll};
-  for (const int width : transport::lane_widths()) words.push_back(std::to_string(width));
+  for (const int width : core::lane_widths()) words.push_back(std::to_string(width));
   return words;
 }
 
@@ -50,8 +50,8 @@ std::vector<int> lane_widths_of(const std::vector<std::string>& words) {
   std::vector<int> asked;
   const bool all = std::find(words.begin(), words.end(), kAll) != words.end();
   if (all) {
-    asked = transport::lane_widths();
-    asked.insert(asked.begin(), transport::default_lane_width());
+    asked = core::lane_widths();
+    asked.insert(asked.begin(), core::default_lane_width());
   } else {
     for (const std::string& word : words) asked.push_back(std::stoi(word));
   }

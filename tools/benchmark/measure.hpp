@@ -13,7 +13,7 @@ struct MeasureSettings {
   double seconds = 2.0;         ///< timed tracing per scene, about
   int rounds = 9;               ///< at most; at least 3 are made
   std::vector<int> threads{2};  ///< beside one thread
-  /// Of transport::lane_widths(), each once: all are measured on one thread, the first also on more. Empty:
+  /// Of core::lane_widths(), each once: all are measured on one thread, the first also on more. Empty:
   /// the default alone.
   std::vector<int> lane_widths;
   bool profile = true;  ///< sample the kinds of work, in a run of their own

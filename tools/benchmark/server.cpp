@@ -9,7 +9,7 @@
 #include "figures.hpp"
 #include "measure.hpp"
 #include "scintray/core/error.hpp"
-#include "scintray/transport/lane_width.hpp"
+#include "scintray/core/lane_width.hpp"
 #include "work_kind.hpp"
 
 namespace scintray::bench {
@@ -34,12 +34,12 @@ json kinds_of(const json& places) {
 json machine() {
   return {{"cpu", this_machine().cpu},
           {"cycles_per_ns", core_clock_per_ns()},
-          {"lane_widths", transport::lane_widths()}};
+          {"lane_widths", core::lane_widths()}};
 }
 
 int lane_width_of(const json& request) {
   const int width = request;
-  const std::vector<int>& widths = transport::lane_widths();
+  const std::vector<int>& widths = core::lane_widths();
   if (std::find(widths.begin(), widths.end(), width) == widths.end())
     throw core::InputError({{}, "this processor has no lanes of width " + std::to_string(width), ""});
   return width;

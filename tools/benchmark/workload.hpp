@@ -31,13 +31,13 @@ struct BuildCost {
 class Workload {
  public:
   /// Builds the scene. @throws InputError for errors in its file
-  /// @param lane_width  of transport::lane_widths(); nothing: the default
+  /// @param lane_width  of core::lane_widths(); nothing: the default
   explicit Workload(const BenchScene& scene, std::optional<int> lane_width = {});
 
   /// Traces the first photons, or the first events of an event source, of the scene.
   /// @param work        number of photons or events, at least 1
   /// @param threads     at least 1
-  /// @param lane_width  of transport::lane_widths(); nothing: that of the scene as built
+  /// @param lane_width  of core::lane_widths(); nothing: that of the scene as built
   Trace trace(std::uint64_t work, int threads, std::optional<int> lane_width = {}) const;
 
   /// True when work counts events, not photons.

@@ -99,8 +99,7 @@ struct LaneBits {
   /// other bits are fixed.
   friend LaneReal<Arch> value_of(const LaneBits& whole) {
     const LaneReal<Arch> upper = number_of((whole >> 32) | LaneBits(bits_of(0x1.0p84)));
-    const LaneReal<Arch> lower =
-        number_of((whole & LaneBits(0xffffffffULL)) | LaneBits(bits_of(0x1.0p52)));
+    const LaneReal<Arch> lower = number_of((whole & LaneBits(0xffffffffULL)) | LaneBits(bits_of(0x1.0p52)));
     return (upper - LaneReal<Arch>(0x1.00000001p84)) + lower;
   }
   /// By four products of 32 bits.

@@ -45,10 +45,10 @@ inline Vec3 sample_polarisation(const Vec3& direction, Rng& rng) {
 /// Exponential deviate with mean 1.
 inline double sample_exponential(Rng& rng) { return -log(rng.uniform_positive()); }
 
-/// Standard normal deviate (Box and Muller 1958).
+/// Standard normal deviate.
 inline double sample_normal(Rng& rng) {
-  const double radius = std::sqrt(-2.0 * log(rng.uniform_positive()));
-  return radius * sincos_of_turn(rng.uniform()).cosine;
+  const double for_radius = rng.uniform_positive();
+  return normal_deviate<double>(for_radius, rng.uniform());
 }
 
 /// Gamma deviate with mean 1 and standard deviation `spread` above 0 (G. Marsaglia and W. W. Tsang 2000,

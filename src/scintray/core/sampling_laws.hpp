@@ -25,6 +25,12 @@ Triple<Real> lambertian(const Triple<Real>& normal, const Real& sine2, const Rea
          root(Real(1.0) - sine2) * normal;
 }
 
+/// Standard normal deviate (Box and Muller 1958), from a number uniform on (0, 1] and one uniform on [0, 1).
+template <typename Real>
+Real normal_deviate(const Real& for_radius, const Real& turn) {
+  return root(Real(-2.0) * laws::log<Real>(for_radius)) * laws::sincos_of_turn<Real>(turn).cosine;
+}
+
 /// A point of the unit circle, uniform in angle, without trigonometry, from 64 random bits: twice the angle
 /// of a point that is uniform in a square, unless that is outside the disc (J. von Neumann 1951, NBS Applied
 /// Math. Series 12, 36).

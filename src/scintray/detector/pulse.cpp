@@ -116,11 +116,12 @@ void PulseShape::pass(State& state, double time_ns) const {
 }
 
 void PulseShape::step(State& state) const {
-  State passed{};
-  for (std::size_t from = 0; from < rate_per_ns_.size(); ++from)
-    for (std::size_t to = from; to < rate_per_ns_.size(); ++to)
-      passed[to] += state[from] * per_step_[from][to];
-  state = passed;
+  // The last stage first: each depends on those before it alone.
+  for (std::size_t to = rate_per_ns_.size(); to-- > 0;) {
+    double passed = 0.0;
+    for (std::size_t from = 0; from <= to; ++from) passed += state[from] * per_step_[from][to];
+    state[to] = passed;
+  }
 }
 
 PulseShape::State PulseShape::after(double time_ns) const {

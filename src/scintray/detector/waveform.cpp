@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scintray/core/sampling.hpp"
+#include "scintray/core/normals.hpp"
 
 namespace scintray::detector {
 
@@ -105,10 +105,12 @@ GateIntegral gate_of(const ReadoutSpec& readout, std::size_t samples) {
 }
 
 std::vector<float> digitize(std::span<const double> waveform, const ReadoutSpec& readout, core::Rng& rng) {
+  std::vector<double> noise(readout.noise > 0.0 ? waveform.size() : 0);
+  core::sample_normals(rng, noise);
   std::vector<float> samples;
   samples.reserve(waveform.size());
-  for (const double exact : waveform) {
-    const double noisy = readout.noise > 0.0 ? exact + readout.noise * core::sample_normal(rng) : exact;
+  for (std::size_t i = 0; i < waveform.size(); ++i) {
+    const double noisy = noise.empty() ? waveform[i] : waveform[i] + readout.noise * noise[i];
     samples.push_back(static_cast<float>(readout.adc_bits > 0 ? on_codes(noisy, readout) : noisy));
   }
   return samples;

@@ -33,8 +33,16 @@ struct FresnelAmplitudesOf {
   /// @param cos_i  cosine of the angle of incidence, in index n1; @param cos_t of the angle of refraction, in
   ///               index n2
   FresnelAmplitudesOf(Real cos_i, Real cos_t, Real n1, Real n2)
-      : s((n1 * cos_i - n2 * cos_t) / (n1 * cos_i + n2 * cos_t)),
-        p((n2 * cos_i - n1 * cos_t) / (n2 * cos_i + n1 * cos_t)) {}
+      : FresnelAmplitudesOf(n1 * cos_i, n1 * cos_t, n2 * cos_i, n2 * cos_t, {}) {}
+
+ private:
+  struct Products {};
+  /// s = (i1 - t2) / (i1 + t2), p = (i2 - t1) / (i2 + t1), with one division.
+  FresnelAmplitudesOf(Real i1, Real t1, Real i2, Real t2, Products) {
+    const Real of_s = i1 + t2, of_p = i2 + t1, inverse = Real(1.0) / (of_s * of_p);
+    s = (i1 - t2) * (of_p * inverse);
+    p = (i2 - t1) * (of_s * inverse);
+  }
 };
 
 /// Sine squared of the angle of incidence below which the plane of incidence is numerically undefined.
@@ -89,13 +97,16 @@ class FacetLight {
   Real unpolarised_reflectance() const { return Real(0.5) * (r_.s * r_.s + r_.p * r_.p); }
   /// Of light with a polarisation and a plane of incidence; has to be called before polarised().
   Real polarised_reflectance() {
-    across_ = normalised(cross(light_.direction, m_));
+    // Of the length of the sine of incidence, which cancels here and in polarised().
+    across_ = cross(light_.direction, m_);
     e_s_ = dot(light_.polarisation, across_);
     e_p_ = dot(light_.polarisation, cross(across_, light_.direction));
     return (r_.s * r_.s * e_s_ * e_s_ + r_.p * r_.p * e_p_ * e_p_) / (e_s_ * e_s_ + e_p_ * e_p_);
   }
 
-  Vector refracted() const { return normalised(ratio_ * light_.direction + (ratio_ * cos_i_ - cos_t_) * m_); }
+  Vector refracted() const {
+    return rounded_to_unit(ratio_ * light_.direction + (ratio_ * cos_i_ - cos_t_) * m_);
+  }
   Vector mirrored() const { return core::mirrored(light_.direction, m_); }
   /// Polarisation after transmission or reflection into a direction.
   Vector polarised(const core::MaskOf<Real>& transmitted, const Vector& into) const {

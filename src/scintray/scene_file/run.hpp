@@ -67,7 +67,7 @@ struct RunSpec {
   std::uint64_t max_interactions = 100000;  ///< boundary interactions per photon
   std::optional<double> max_time_ns;        ///< since the event; photons beyond it are cut
   std::optional<int> threads;               ///< nothing: all cores
-  /// Photons propagated at once, of transport::lane_widths(). No result depends on it, and no key sets it.
+  /// Photons propagated at once, of core::lane_widths(). No result depends on it, and no key sets it.
   std::optional<int> lane_width;
   double contact_tolerance_mm = 1e-4;
   AcceleratorKind accelerator = AcceleratorKind::automatic;

@@ -5,10 +5,10 @@
 #include <functional>
 #include <optional>
 
+#include "scintray/core/lane_width.hpp"
 #include "scintray/source/light_source.hpp"
 #include "scintray/tally/block_tally.hpp"
 #include "scintray/tally/event_record.hpp"
-#include "scintray/transport/lane_width.hpp"
 #include "scintray/transport/step.hpp"
 
 namespace scintray::simulation {
@@ -17,11 +17,11 @@ class MappedResponse;
 
 struct RunSettings {
   std::uint64_t seed = 1;
-  std::uint32_t point = 0;                           ///< sweep point: each has its own random streams
-  std::uint64_t max_interactions = 100'000;          ///< boundary interactions after which a photon is cut
-  std::optional<double> max_time_ns;                 ///< time after which a photon is cut
-  int threads = 0;                                   ///< 0: all cores
-  int lane_width = transport::default_lane_width();  ///< of transport::lane_widths(); no result depends on it
+  std::uint32_t point = 0;                      ///< sweep point: each has its own random streams
+  std::uint64_t max_interactions = 100'000;     ///< boundary interactions after which a photon is cut
+  std::optional<double> max_time_ns;            ///< time after which a photon is cut
+  int threads = 0;                              ///< 0: all cores
+  int lane_width = core::default_lane_width();  ///< of core::lane_widths(); no result depends on it
   /// Photons whose conversion draw is not below this are not traced: no sensor would convert them. The
   /// detected photons are the same for any value that no efficiency exceeds.
   double birth_efficiency = 1.0;

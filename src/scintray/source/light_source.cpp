@@ -38,8 +38,8 @@ class PhotonSource : public LightSource {
              EventLight& light) const override;
   Photon emit(const scene::Scene& scene, const EventLight& light, std::uint64_t photon,
               core::Rng& rng) const override;
-  void emit_together(const scene::Scene& scene, const EventLight& light, std::span<EmittedPhoton* const> photons,
-                     int lane_width) const override;
+  void emit_together(const scene::Scene& scene, const EventLight& light,
+                     std::span<EmittedPhoton* const> photons, int lane_width) const override;
   std::vector<core::RegionId> regions() const override { return origin_.regions(); }
 
  private:

@@ -88,10 +88,10 @@ class LightSource {
   /// @param rng     the photon's own stream
   virtual Photon emit(const scene::Scene& scene, const EventLight& light, std::uint64_t photon,
                       core::Rng& rng) const = 0;
-  /// Initial states of several photons: each as of emit() alone, to the last bit, with its stream where emit()
-  /// leaves it.
+  /// Initial states of several photons: each as of emit() alone, to the last bit, with its stream where
+  /// emit() leaves it.
   /// @param photons     with numbers as for emit(), and streams of which nothing is drawn
-  /// @param lane_width  photons at once, of transport::lane_widths()
+  /// @param lane_width  photons at once, of core::lane_widths()
   virtual void emit_together(const scene::Scene& scene, const EventLight& light,
                              std::span<EmittedPhoton* const> photons, int lane_width) const;
   /// Regions in which photons may start.

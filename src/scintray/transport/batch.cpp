@@ -4,10 +4,10 @@
 #include <utility>
 
 #include "scintray/core/error.hpp"
+#include "scintray/core/lane_width.hpp"
 #include "scintray/transport/detail/lane_faces.hpp"
 #include "scintray/transport/detail/step_parts.hpp"
 #include "scintray/transport/detail/surface_lanes.hpp"
-#include "scintray/transport/lane_width.hpp"
 
 namespace scintray::transport {
 
@@ -137,7 +137,7 @@ Batch::Tracing::Tracing(const scene::Scene& scene, const PropagationLimits& limi
       kinds_(kinds),
       kernels_(lane_kernels(lane_width)),
       surface_lanes_(scene, limits, kernels_.run) {
-  const std::vector<int>& widths = lane_widths();
+  const std::vector<int>& widths = core::lane_widths();
   if (std::find(widths.begin(), widths.end(), lane_width) == widths.end())
     throw core::InternalError("this processor has no lanes of width " + std::to_string(lane_width));
   faces_.resize(scene.accelerators.size());
@@ -214,7 +214,8 @@ void Batch::Tracing::enqueue(std::uint32_t index) {
 void Batch::Tracing::trace_alone(std::uint32_t index) {
   Traveller& traveller = travellers_[index];
   do {
-    if (!goes_on(traveller, step(scene_, traveller.photon, traveller.rng, limits_))) return ended_.push_back(index);
+    if (!goes_on(traveller, step(scene_, traveller.photon, traveller.rng, limits_)))
+      return ended_.push_back(index);
   } while (kinds_[traveller.photon.region] == LaneKind::none);
   enqueue(index);
 }

@@ -8,8 +8,8 @@
 
 namespace scintray::source {
 
-/// Parts of the emission of several photons, which draw the same numbers, to the same bits, as core/sampling.hpp
-/// does for each of them alone.
+/// Parts of the emission of several photons, which draw the same numbers, to the same bits, as
+/// core/sampling.hpp does for each of them alone.
 class EmissionLanes {
  public:
   /// Photons of one call, at most kEmitted.

@@ -3,9 +3,9 @@
 /// the numbers that ExactBodies::nearest and CurvedPropagation (propagation_states.hpp) have for one photon,
 /// in the same order.
 
+#include "scintray/core/lane_fours.hpp"
 #include "scintray/mesh/cylinder_arrival.hpp"
 #include "scintray/mesh/quadric_laws.hpp"
-#include "scintray/core/lane_fours.hpp"
 #include "scintray/transport/detail/lanes/lane_kernel.hpp"
 #include "scintray/transport/detail/lanes/lane_kernel_of.hpp"
 #include "scintray/transport/detail/lanes/lane_numbers.hpp"

@@ -13,10 +13,10 @@ namespace scintray::transport {
 
 /// The end of a photon's propagation through its region.
 enum class LaneEnd : std::uint32_t {
-  bulk,      ///< the next event is in the medium; the photon is where its last segment began
-  boundary,  ///< the photon is on a face at which no total reflection follows
-  total,     ///< it was totally reflected, and the limits are reached
-  unclear,   ///< the next face leads to several regions; the photon is where its last segment began
+  bulk,        ///< the next event is in the medium; the photon is where its last segment began
+  boundary,    ///< the photon is on a face at which no total reflection follows
+  total,       ///< it was totally reflected, and the limits are reached
+  unclear,     ///< the next face leads to several regions; the photon is where its last segment began
   unfinished,  ///< the photon was totally reflected, and is to be propagated on beside others
 };
 

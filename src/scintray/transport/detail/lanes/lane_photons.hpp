@@ -1,8 +1,8 @@
 #pragma once
 /// The photons of the pool (lane_pool.hpp) that are in the lanes of one vector, and their random numbers.
 
-#include "scintray/core/philox_laws.hpp"
 #include "scintray/core/lane_fours.hpp"
+#include "scintray/core/philox_laws.hpp"
 #include "scintray/transport/detail/lanes/lane_pool.hpp"
 
 namespace scintray::transport {

@@ -14,6 +14,8 @@ void propagate_lanes_in_body_4(const LaneBody& body, const LaneLimits& limits, L
   propagate_in_body<core::LaneReal<xsimd::avx2>>(body, limits, photons, count);
 }
 
-void run_lanes_4(LanePool& pool) { LanePasses<core::LaneRealPair<xsimd::avx2>, LaneDraws::one_by_one>(pool).run(); }
+void run_lanes_4(LanePool& pool) {
+  LanePasses<core::LaneRealPair<xsimd::avx2>, LaneDraws::one_by_one>(pool).run();
+}
 
 }  // namespace scintray::transport

@@ -1,0 +1,53 @@
+#include "scintray/core/normals.hpp"
+
+#include "scintray/core/detail/normal_kernels.hpp"
+#include "scintray/core/sampling.hpp"
+
+namespace scintray::core {
+
+namespace {
+
+DrawNormals kernel_of(int lane_width) {
+  switch (lane_width) {
+#if defined(__x86_64__)
+    case 4:
+      return draw_normals_4;
+    case 8:
+      return draw_normals_8;
+#endif
+    default:
+      return nullptr;
+  }
+}
+
+/// Draws as many deviates as a kernel does, and sets the stream to behind them.
+void draw(DrawNormals kernel, Rng& rng, NormalLanes& lanes) {
+  Rng::State stream = rng.state();
+  static_assert(NormalLanes::kLeft == Rng::kDrawn);
+  std::copy(stream.drawn.begin(), stream.drawn.end(), lanes.numbers);
+  std::copy(stream.counter.begin(), stream.counter.end(), lanes.counter);
+  std::copy(stream.key.begin(), stream.key.end(), lanes.key);
+  lanes.left = rng.ahead().size();
+  kernel(lanes);
+  // As many numbers as before are left: the last of the new ones.
+  stream.counter[0] += NormalLanes::kBlocks;
+  std::copy(std::end(lanes.numbers) - Rng::kDrawn, std::end(lanes.numbers), stream.drawn.begin());
+  rng.go_on_from(stream);
+}
+
+}  // namespace
+
+void sample_normals(Rng& rng, std::span<double> deviates, int lane_width) {
+  std::size_t next = 0;
+  if (const DrawNormals kernel = kernel_of(lane_width)) {
+    NormalLanes lanes;  // NOLINT(cppcoreguidelines-pro-type-member-init): draw() sets what the kernel reads
+    for (; deviates.size() - next >= NormalLanes::kDeviates; next += NormalLanes::kDeviates) {
+      draw(kernel, rng, lanes);
+      std::copy(std::begin(lanes.deviates), std::end(lanes.deviates),
+                deviates.begin() + static_cast<std::ptrdiff_t>(next));
+    }
+  }
+  for (; next < deviates.size(); ++next) deviates[next] = sample_normal(rng);
+}
+
+}  // namespace scintray::core
