@@ -1,7 +1,6 @@
 #include "scintray/transport/batch.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -18,30 +17,6 @@ namespace {
 /// Photons in flight at once: enough to fill the lanes with photons of one kind of region, few enough for the
 /// first level of the cache.
 constexpr std::size_t kTravellers = 128;
-
-/// Relative accuracy of planes and positions.
-constexpr double kRounding = 1e-12;
-
-/// The step of a photon that leaves the scene through the ambient medium.
-Step escape() {
-  Step step;
-  step.event = core::StepEvent::escaped;
-  step.region = scene::kAmbientRegion;
-  step.segments = 1;
-  return step;
-}
-
-/// Box around all that a ray in the ambient medium could meet; nothing where round faces have places beyond
-/// the corners of their triangles.
-std::optional<Eigen::AlignedBox3d> ambient_bounds(const scene::Scene& scene) {
-  const scene::Region& ambient = scene.regions[scene::kAmbientRegion];
-  const scene::Boundary& boundary = scene.accelerator(ambient).boundary();
-  if (!boundary.exact.empty()) return std::nullopt;
-  Eigen::AlignedBox3d bounds;
-  for (const core::PlainVec3& vertex : boundary.vertices)
-    bounds.extend(core::Vec3(ambient.direction_to_world(vertex) + ambient.centre.vec()));
-  return bounds;
-}
 
 core::PlainVec3 vec(const double (&from)[3]) { return {from[0], from[1], from[2]}; }
 
@@ -122,9 +97,6 @@ class Batch::Tracing {
   void set_work(std::uint32_t traveller, const LaneFaces& faces, LaneWork& work);
   void set_critical_angles(Traveller& traveller, const LaneFaces& faces, double* least_sin2) const;
   void finish(const LaneWork& work, const LaneFaces& faces, std::uint32_t traveller);
-  /// True when light that has left a region through one of its triangles meets nothing more: it is in an
-  /// ambient medium without absorption and scattering, and all that it could reach lies behind the plane.
-  bool leaves_the_scene(const Traveller& traveller, const Step& taken) const;
   /// True when the photon continues after the step; else its end is recorded, and the next photon replaces
   /// it.
   bool goes_on(Traveller& traveller, const Step& taken);
@@ -135,7 +107,7 @@ class Batch::Tracing {
   PropagationLimits limits_;
   const LaneKinds& kinds_;
   LaneKernels kernels_;
-  std::optional<Eigen::AlignedBox3d> reachable_;  ///< by light in the ambient medium; nothing: not known
+  std::optional<Eigen::AlignedBox3d> reachable_;  ///< ambient_bounds()
   SurfaceLanes surface_lanes_;
   core::IdVector<core::AcceleratorId, LaneFaces> faces_;  ///< of those of LaneKind::smooth
   std::size_t most_faces_ = 0;
@@ -369,21 +341,6 @@ void Batch::Tracing::finish(const LaneWork& work, const LaneFaces& faces, std::u
     ended_.push_back(index);
 }
 
-bool Batch::Tracing::leaves_the_scene(const Traveller& traveller, const Step& taken) const {
-  const source::Photon& photon = traveller.photon;
-  if (!reachable_ || taken.event != core::StepEvent::transmitted || photon.region != scene::kAmbientRegion ||
-      photon.optics.absorption_per_mm + photon.optics.scattering_per_mm > 0.0)
-    return false;
-  const scene::Region& region = scene_.regions[taken.region];
-  if (region.curved) return false;
-  const scene::Accelerator& accelerator = scene_.accelerator(region);
-  const core::Vec3 normal = region.direction_to_world(accelerator.normal(taken.triangle));
-  const double offset = accelerator.plane(taken.triangle).zw[1] + normal.dot(region.centre.vec());
-  const core::Vec3 middle = reachable_->center(), half = 0.5 * reachable_->sizes();
-  const double reach = normal.dot(middle) + normal.cwiseAbs().dot(half);
-  return reach <= offset + kRounding * (std::abs(offset) + half.norm());
-}
-
 bool Batch::Tracing::goes_on(Traveller& traveller, const Step& taken) {
   const std::uint32_t segments = taken.segments + std::exchange(traveller.segments, 0);
   const bool ends = core::is_final(taken.event);
@@ -391,12 +348,12 @@ bool Batch::Tracing::goes_on(Traveller& traveller, const Step& taken) {
   if (!ends) {
     traveller.segments_before += segments;
     traveller.resolved_before += taken.resolved;
-    if (!cut && !leaves_the_scene(traveller, taken)) return true;
+    if (!cut && !leaves_the_scene(scene_, reachable_, traveller.photon, taken)) return true;
   }
   TracedPhoton& traced = ends_.at(traveller.index);
   traced = {traveller.photon, taken, cut, traveller.segments_before, traveller.resolved_before};
   traced.last.segments = segments;
-  if (!ends && !cut) traced.last = escape();
+  if (!ends && !cut) traced.last = step_out_of_scene();
   return false;
 }
 

@@ -2,6 +2,8 @@
 /// The parts of a step: propagation to its end, and the event there, in the bulk of a medium or at an
 /// interface.
 
+#include <optional>
+
 #include "scintray/transport/step.hpp"
 
 namespace scintray::transport {
@@ -46,6 +48,17 @@ Step cross_boundary(const scene::Scene& scene, const BoundaryPlace& at, source::
 /// The step of a photon absorbed by a surface.
 Step absorb_at_boundary(const scene::Scene& scene, const BoundaryPlace& at, core::SurfaceId by,
                         const source::Photon& photon);
+
+/// Box (world, mm) around all that light in the ambient medium could meet; nothing where it is not known, as
+/// exact round faces reach beyond the corners of their triangles.
+std::optional<Eigen::AlignedBox3d> ambient_bounds(const scene::Scene& scene);
+/// True when light that a step has taken out of a region meets nothing more: it is in an ambient medium
+/// without absorption and scattering, and all that it could meet lies behind the plane through which it left.
+/// @param bounds  ambient_bounds()
+bool leaves_the_scene(const scene::Scene& scene, const std::optional<Eigen::AlignedBox3d>& bounds,
+                      const source::Photon& photon, const Step& taken);
+/// The step of such light.
+Step step_out_of_scene();
 
 /// Outcome at an interface: the region that the ray enters, or the surface that absorbed it.
 struct InterfaceOutcome {
