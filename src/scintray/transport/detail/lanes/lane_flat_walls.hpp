@@ -10,7 +10,8 @@ namespace scintray::transport {
 namespace {
 
 /// Planes of a region up to which what is needed of the nearest one is selected with it; beyond it is loaded,
-/// for each lane from a place of its own.
+/// for each lane from a place of its own. In fewer than eight lanes, whose instruction sets have half of the
+/// registers, loading is faster (1.04 in a polished box by four).
 inline constexpr std::uint32_t kFewPlanes = 8;
 
 /// @tparam kFew  there are no more than kFewPlanes
@@ -102,10 +103,10 @@ template <typename Real>
 [[gnu::always_inline]] inline void propagate_between_planes(const LanePlanes& planes,
                                                             const LaneLimits& limits, LaneWork* photons,
                                                             std::size_t count) {
-  if (planes.count <= kFewPlanes)
-    LanePropagation<LaneFlatWalls<Real, true>>(planes, limits, photons, count).run();
-  else
-    LanePropagation<LaneFlatWalls<Real, false>>(planes, limits, photons, count).run();
+  if constexpr (Real::kWidth >= 8)
+    if (planes.count <= kFewPlanes)
+      return LanePropagation<LaneFlatWalls<Real, true>>(planes, limits, photons, count).run();
+  LanePropagation<LaneFlatWalls<Real, false>>(planes, limits, photons, count).run();
 }
 
 }  // namespace
