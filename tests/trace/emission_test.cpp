@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "physics/traced.hpp"
 #include "scintray/core/lane_width.hpp"
 #include "scintray/core/sampling.hpp"
 #include "scintray/scene/build_scene.hpp"
@@ -16,7 +17,7 @@ using namespace scintray::test;
 
 namespace {
 
-/// Two boxes of LSO, a ball and a wedge of it, and a crystal of two indices, with a [source].
+/// Two boxes of LSO, a ball of it, and a crystal of two indices, with a [source].
 std::string scene_emitting(const std::string& source) {
   return R"(
 ambient = "air"
