@@ -3,7 +3,7 @@
 
 #include "scintray/core/detail/normal_kernels.hpp"
 #include "scintray/core/elementary_laws.hpp"
-#include "scintray/core/lane_fours.hpp"
+#include "scintray/core/lanes/lane_fours.hpp"
 #include "scintray/core/philox_laws.hpp"
 #include "scintray/core/sampling_laws.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 /// The kernels of emission_kernels.hpp for one instruction set. Included by one file for each.
 
-#include "scintray/core/lane_fours.hpp"
+#include "scintray/core/lanes/lane_fours.hpp"
 #include "scintray/core/philox_laws.hpp"
 #include "scintray/core/sampling_laws.hpp"
 #include "scintray/source/detail/lanes/emission_kernels.hpp"

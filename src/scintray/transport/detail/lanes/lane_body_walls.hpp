@@ -3,7 +3,7 @@
 /// the numbers that ExactBodies::nearest and CurvedPropagation (propagation_states.hpp) have for one photon,
 /// in the same order.
 
-#include "scintray/core/lane_fours.hpp"
+#include "scintray/core/lanes/lane_fours.hpp"
 #include "scintray/mesh/cylinder_arrival.hpp"
 #include "scintray/mesh/quadric_laws.hpp"
 #include "scintray/transport/detail/lanes/lane_kernel.hpp"

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "scintray/core/lane_fours.hpp"
+#include "scintray/core/lanes/lane_fours.hpp"
 
 namespace scintray::transport {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 /// The photons of the pool (lane_pool.hpp) that are in the lanes of one vector, and their random numbers.
 
-#include "scintray/core/lane_fours.hpp"
+#include "scintray/core/lanes/lane_fours.hpp"
 #include "scintray/core/philox_laws.hpp"
 #include "scintray/transport/detail/lanes/lane_pool.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "scintray/core/lane_number.hpp"
+#include "scintray/core/lanes/lane_number.hpp"
 
 namespace scintray::transport {
 namespace {

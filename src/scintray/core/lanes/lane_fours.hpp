@@ -2,7 +2,7 @@
 /// Loads and stores of four numbers that follow each other in memory, and loads of single ones, at a place of
 /// its own for each lane.
 
-#include "scintray/core/lane_number.hpp"
+#include "scintray/core/lanes/lane_number.hpp"
 
 namespace scintray::core {
 
