@@ -6,9 +6,7 @@
 #include "io/tabulated.hpp"
 #include "physics/traced.hpp"
 #include "scintray/core/lane_width.hpp"
-#include "scintray/core/philox_laws.hpp"
 #include "scintray/core/sampling.hpp"
-#include "scintray/core/sampling_laws.hpp"
 #include "scintray/transport/batch.hpp"
 #include "support/shared.hpp"
 
@@ -559,42 +557,6 @@ TEST_CASE("Blocks traced together have the results of blocks traced one by one")
   const auto expected = ranges(1);
   CHECK(expected.size() == 9);
   CHECK(ranges(width) == expected);
-}
-
-TEST_CASE("Laws over a number type have the bits of those for one photon") {
-  Rng rng(1, StreamKind::other, 0);
-  const auto triple = [](const Vec3& v) { return Triple<double>{v.x(), v.y(), v.z()}; };
-  const auto same = [](const Triple<double>& a, const Vec3& b) {
-    return same_bits(a.x, b.x()) && same_bits(a.y, b.y()) && same_bits(a.z, b.z());
-  };
-  const auto same_angle = [](const SineCosineOf<double>& a, const SineCosine& b) {
-    return same_bits(a.sine, b.sine) && same_bits(a.cosine, b.cosine);
-  };
-  int different = 0;
-  const auto require = [&](bool holds) { different += holds ? 0 : 1; };
-  for (std::uint64_t i = 0; i < 2'000; ++i) {
-    const Vec3 a = sample_isotropic(rng), b = sample_isotropic(rng);
-    const Vec3 sum = a + 2.0 * b;
-    require(same_bits(dot(triple(a), triple(b)), a.dot(b)));
-    require(same(cross(triple(a), triple(b)), a.cross(b)));
-    const Vec3 unit = (1.0 / sum.norm()) * sum;
-    require(same(normalised(triple(sum)), unit));
-    require((unit - sum.normalized()).norm() < 4e-16);
-    const double off = 1e-7 * (a.x());
-    require(std::abs(vec(rounded_to_unit(triple((1.0 + off) * a))).norm() - 1.0) < 4e-16 + 1.5 * off * off);
-    const Frame frame = Frame::about(a);
-    const Across<double> across(triple(a));
-    require(same(across.x, frame.x) && same(across.y, frame.y));
-    const double u = rng.uniform_positive();
-    require(same_bits(laws::log(u), core::log(u)));
-    require(same_angle(laws::sincos(7.0 * u), core::sincos(7.0 * u)));
-    require(same_angle(laws::sincos_of_turn(u), core::sincos_of_turn(u)));
-    const std::uint64_t key = rng.bits();
-    const PhiloxBlock<std::uint64_t> block({i, 2, key, 4}, {key, 6});
-    const std::array<std::uint64_t, 4> expected = philox4x64({i, 2, key, 4}, {key, 6});
-    for (std::size_t k = 0; k < 4; ++k) require(block.words[k] == expected[k]);
-  }
-  CHECK(different == 0);
 }
 
 TEST_CASE("A width that the processor has not is refused") {
