@@ -172,7 +172,7 @@ Photon PhotonSource::emit(const scene::Scene& scene, const EventLight&, std::uin
 void PhotonSource::emit_together(const scene::Scene& scene, const EventLight& light,
                                  std::span<EmittedPhoton* const> photons, int lane_width) const {
   const EmissionLanes lanes(lane_width);
-  if (!is_isotropic() || !lanes.available())
+  if (!is_isotropic() || !lanes.take(photons.size()))
     return LightSource::emit_together(scene, light, photons, lane_width);
   lanes.begin(photons);
   for (EmittedPhoton* const emitted : photons) set_place(scene, emitted->photon, emitted->rng);

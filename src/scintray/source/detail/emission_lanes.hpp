@@ -17,8 +17,8 @@ class EmissionLanes {
 
   /// @param lane_width  photons at once; 1 and 2: photons are emitted one by one
   explicit EmissionLanes(int lane_width);
-  /// False when photons have to be emitted one by one.
-  bool available() const { return kernels_.draw != nullptr; }
+  /// False when so many photons have to be emitted one by one.
+  bool take(std::size_t photons) const { return kernels_.draw && photons <= kEmitted; }
 
   /// Resets the photons, and draws the first numbers of each stream, of which none are drawn yet.
   void begin(Photons photons) const;

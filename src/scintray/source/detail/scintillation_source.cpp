@@ -202,12 +202,13 @@ ScintillationSource::Cause ScintillationSource::cause_of(const scene::Scene& sce
       light.deposits.begin(), light.deposits.end(), number,
       [](std::uint64_t photon, const EventLight::DepositEnd& end) { return photon < end.all; });
   const Deposit& deposit = light.event.deposits[static_cast<std::size_t>(from - light.deposits.begin())];
-  return {deposit, number >= from->scintillation, scene.regions[deposit.region].medium};
+  return {&deposit, number >= from->scintillation, scene.regions[deposit.region].medium};
 }
 
 void ScintillationSource::set_colour(const scene::Scene& scene, const Cause& from, Photon& photon,
                                      core::Rng& rng) const {
-  const auto& [deposit, prompt, medium] = from;
+  const auto& [cause, prompt, medium] = from;
+  const Deposit& deposit = *cause;
   photon.wavelength_nm = prompt ? cherenkov_[medium]->sample_wavelength(deposit.energy_keV, rng)
                                 : spectrum_of(scene, medium, deposit).sample(rng.uniform());
   photon.time_ns =
@@ -217,7 +218,8 @@ void ScintillationSource::set_colour(const scene::Scene& scene, const Cause& fro
 Photon ScintillationSource::emit(const scene::Scene& scene, const EventLight& light, std::uint64_t number,
                                  core::Rng& rng) const {
   const Cause from = cause_of(scene, light, number);
-  const auto& [deposit, prompt, medium] = from;
+  const auto& [cause, prompt, medium] = from;
+  const Deposit& deposit = *cause;
   Photon photon;
   photon.region = deposit.region;
   photon.ray.keeps_phases = scene.keeps_phases;
@@ -246,21 +248,21 @@ Photon ScintillationSource::emit(const scene::Scene& scene, const EventLight& li
 void ScintillationSource::emit_together(const scene::Scene& scene, const EventLight& light,
                                         std::span<EmittedPhoton* const> photons, int lane_width) const {
   const EmissionLanes lanes(lane_width);
-  const auto of_step = [&](const EmittedPhoton* emitted) {
-    return cause_of(scene, light, emitted->number).deposit.step.has_value();
-  };
-  if (!lanes.available() || std::any_of(photons.begin(), photons.end(), of_step))
-    return LightSource::emit_together(scene, light, photons, lane_width);
+  if (!lanes.take(photons.size())) return LightSource::emit_together(scene, light, photons, lane_width);
+  std::array<Cause, kEmitted> causes;
+  for (std::size_t i = 0; i < photons.size(); ++i) {
+    causes[i] = cause_of(scene, light, photons[i]->number);
+    if (causes[i].deposit->step) return LightSource::emit_together(scene, light, photons, lane_width);
+  }
   lanes.begin(photons);
   lanes.emit_isotropic(photons, unpolarised_);
-  for (EmittedPhoton* const emitted : photons) {
-    Photon& photon = emitted->photon;
-    const Cause from = cause_of(scene, light, emitted->number);
-    photon.position = from.deposit.position;
-    photon.region = from.deposit.region;
+  for (std::size_t i = 0; i < photons.size(); ++i) {
+    Photon& photon = photons[i]->photon;
+    photon.position = causes[i].deposit->position;
+    photon.region = causes[i].deposit->region;
     photon.ray.keeps_phases = scene.keeps_phases;
-    set_colour(scene, from, photon, emitted->rng);
-    photon.optics = scene.optics.at(from.medium, photon.wavelength_nm);
+    set_colour(scene, causes[i], photon, photons[i]->rng);
+    photon.optics = scene.optics.at(causes[i].medium, photon.wavelength_nm);
   }
   lanes.draw_depths(photons);
   for (EmittedPhoton* const emitted : photons) source::emit_isotropic(scene, emitted->photon, emitted->rng);

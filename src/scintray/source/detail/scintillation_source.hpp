@@ -45,8 +45,8 @@ class ScintillationSource : public LightSource {
  private:
   /// What a photon comes from.
   struct Cause {
-    const Deposit& deposit;
-    bool prompt;  ///< Cherenkov light
+    const Deposit* deposit = nullptr;
+    bool prompt = false;  ///< Cherenkov light
     core::MediumId medium;
   };
   static Cause cause_of(const scene::Scene& scene, const EventLight& light, std::uint64_t photon);
