@@ -7,7 +7,7 @@
 #include <numeric>
 #include <set>
 
-#include "scintray/contact/detail/box_tree.hpp"
+#include "scintray/contact/box_tree.hpp"
 #include "scintray/contact/detail/clusters.hpp"
 #include "scintray/contact/detail/nesting.hpp"
 #include "scintray/contact/detail/overlay.hpp"

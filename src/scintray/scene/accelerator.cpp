@@ -176,6 +176,24 @@ Exit Accelerator::exit_by_embree(const core::Vec3& origin, const core::Vec3& dir
   return exact_exit(origin, direction, hit);
 }
 
+Exit Accelerator::exit_across_gap(const core::Vec3& origin, const core::Vec3& direction,
+                                  std::uint32_t left) const {
+  const ThinGaps& thin = boundary_.thin_gaps;
+  const ThinGaps::Range range = thin.of_triangle[left];
+  for (std::uint32_t i = range.begin; i < range.end; ++i) {
+    const ThinGap& gap = thin.gaps[i];
+    const double x = product(gap.x, origin), y = product(gap.y, origin);
+    if (!gap.contains(x, y)) continue;
+    const Approach approach =
+        approach_of(gap.beyond, core::Lanes(origin, -1.0), core::Lanes(direction, 0.0));
+    if (!(approach.cosine > 0.0)) break;
+    if (gap.contains(x + approach.distance_mm * product(gap.x, direction),
+                     y + approach.distance_mm * product(gap.y, direction)))
+      return {approach.distance_mm, gap.beyond, false};
+  }
+  return {};
+}
+
 Exit Accelerator::exit_by_planes(const core::Vec3& origin, const core::Vec3& direction) const {
   const PlaneAhead ahead = nearest_plane(boundary_, origin, direction);
   const BoundingPlane* const exit = &boundary_.planes[ahead.plane];

@@ -63,6 +63,11 @@ class Accelerator {
   /// `direction` leaves the region.
   Exit find_exit(const core::Vec3& origin, const core::Vec3& direction) const;
 
+  /// As find_exit, from the face of the triangle `left`, where it is across a thin gap from there that the ray
+  /// leaves; kNoTriangle where it is not, or where this is not clear.
+  Exit exit_across_gap(const core::Vec3& origin, const core::Vec3& direction, std::uint32_t left) const;
+  bool has_thin_gaps() const { return !boundary_.thin_gaps.empty(); }
+
   /// As find_exit, of a region with exact bodies.
   /// @param left  triangle on whose face the ray starts, reflected: of a quadric the root there is known and
   ///              left out; kNoTriangle: not known

@@ -146,8 +146,9 @@ struct BoundaryLink {
   core::MediumId smooth_to;  ///< medium behind a plain interface between media of one index; none: another,
                              ///< or phases are kept
   bool from_back = true;
+  std::uint32_t twin = kNoTriangle;  ///< this triangle in the boundary of the region on its other side
 };
-static_assert(std::is_trivially_copyable_v<BoundaryLink> && sizeof(BoundaryLink) == 12);
+static_assert(std::is_trivially_copyable_v<BoundaryLink> && sizeof(BoundaryLink) == 16);
 
 /// Connected space of one medium: a part less the parts nested in it, or the ambient space.
 struct Region {
@@ -161,6 +162,7 @@ struct Region {
   /// surfaces for lanes (lane_surface_at.hpp).
   bool in_lanes = false;
   bool curved = false;                                           ///< its accelerator has exact bodies
+  bool thin_gaps = false;  ///< it has some: photons in it keep the triangle of the flat face that they are on
   core::PlainVec3 centre = core::Vec3(core::Vec3::Zero());       ///< origin of the region's frame, mm
   core::PlainMatrix3 rotation = core::PlainMatrix3::identity();  ///< world = centre + rotation * local
 

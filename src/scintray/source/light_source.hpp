@@ -30,8 +30,9 @@ struct Photon {
   core::RegionId region = {};   ///< that contains the photon
   std::uint32_t interactions = 0;  ///< boundary interactions so far
   std::uint32_t scatterings = 0;   ///< bulk scatterings so far
-  /// Triangle of the region's boundary on whose exact round face the photon is since its last reflection
-  /// there; scene::kNoTriangle: on none.
+  /// Triangle of the region's boundary on whose face the photon is, where that is of use: on an exact round
+  /// face since its last reflection there, or on a flat face of a region with thin gaps; scene::kNoTriangle: on
+  /// none.
   std::uint32_t on_triangle = 0xffffffffu;
 };
 static_assert(std::is_trivially_copyable_v<Photon>);

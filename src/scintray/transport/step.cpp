@@ -182,9 +182,12 @@ bool reaches_sensor(const scene::Scene& scene, const scene::Interface& interface
 /// @param there  refractive index behind it
 inline void cross(const scene::Scene& scene, const scene::Interface& interface, double there,
                   source::Photon& photon, Step& result) {
+  const core::RegionId before = photon.region;
   photon.region = result.from_back ? interface.front : interface.back;
-  photon.on_triangle = scene::kNoTriangle;
-  const core::MediumId medium = scene.regions[photon.region].medium;
+  const scene::Region& entered = scene.regions[photon.region];
+  photon.on_triangle = entered.thin_gaps ? scene.link(scene.regions[before], result.triangle).twin
+                                         : scene::kNoTriangle;
+  const core::MediumId medium = entered.medium;
   photon.optics = scene.optics.at(medium, photon.wavelength_nm);
   if (reaches_sensor(scene, interface, result.from_back)) {
     reach_sensor(scene, interface, photon, {there, result.cos_after}, result);
@@ -237,10 +240,12 @@ void interact_at_boundary(const scene::Scene& scene, std::uint32_t triangle, sou
     crossed = outcome.in_front == link.from_back;
   }
   result.cos_after = std::abs(photon.ray.direction.dot(outward));
-  if (crossed)
+  if (crossed) {
     cross(scene, interface, there, photon, result);
-  else
+  } else {
+    if (region.thin_gaps) photon.on_triangle = triangle;
     result.event = core::StepEvent::reflected;
+  }
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <set>
 
-#include "scintray/contact/detail/box_tree.hpp"
+#include "scintray/contact/box_tree.hpp"
 #include "scintray/core/error.hpp"
 
 namespace scintray::contact {

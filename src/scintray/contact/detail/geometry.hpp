@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "scintray/contact/contacts.hpp"
-#include "scintray/contact/detail/box_tree.hpp"
+#include "scintray/contact/box_tree.hpp"
 #include "scintray/core/vec.hpp"
 
 namespace scintray::contact {

@@ -4,7 +4,7 @@
 #include <numeric>
 #include <set>
 
-#include "scintray/contact/detail/box_tree.hpp"
+#include "scintray/contact/box_tree.hpp"
 #include "scintray/contact/detail/clusters.hpp"
 
 namespace scintray::contact {

@@ -28,6 +28,7 @@ struct Entry {
   core::PartId body, other;  ///< the part whose face it is, and that on the other side of it
   std::uint32_t support;     ///< in the part's list
   bool exact;                ///< on an exact body
+  std::size_t index;         ///< of the interface triangle
 };
 
 /// The properties in which equal boundaries agree.
@@ -46,9 +47,12 @@ GridPoint on_grid(const core::Vec3& v) {
 }
 
 /// An entry of an interface triangle, with all but its place.
-Entry entry_of(const contact::InterfaceTriangle& t, core::InterfaceId interface, bool is_back) {
+/// @param index  of the triangle
+Entry entry_of(const contact::InterfaceTriangle& t, std::size_t index, core::InterfaceId interface,
+               bool is_back) {
   const bool of_back = t.back_face.has_value() && (is_back || !t.front_face.has_value());
   Entry entry;
+  entry.index = index;
   entry.link = {interface, core::MediumId::none(), is_back};
   entry.body = of_back ? t.back : t.front;
   entry.other = of_back ? t.front : t.back;
@@ -106,6 +110,32 @@ bool find_exact(const PartBodies& bodies, core::PartId of, std::vector<Entry>& e
   return true;
 }
 
+/// The two places of each interface triangle: in the boundaries of the regions at its back and front.
+class Twins {
+ public:
+  explicit Twins(std::size_t triangles) : of_back_(triangles), of_front_(triangles) {}
+
+  /// @param link    its number in SceneRecords::links
+  /// @param number  of the triangle in its region's boundary
+  void add(const Entry& entry, std::size_t link, std::uint32_t number) {
+    (entry.link.from_back ? of_back_ : of_front_)[entry.index] = {link, number};
+  }
+  /// Sets BoundaryLink::twin.
+  void link(Scene& scene) const {
+    for (std::size_t i = 0; i < of_back_.size(); ++i) {
+      scene.links[of_back_[i].link].twin = of_front_[i].number;
+      scene.links[of_front_[i].link].twin = of_back_[i].number;
+    }
+  }
+
+ private:
+  struct Place {
+    std::size_t link = 0;
+    std::uint32_t number = 0;
+  };
+  std::vector<Place> of_back_, of_front_;
+};
+
 /// Sets BoundaryLink::smooth_to and Region::in_lanes, which requires all regions.
 void link_smooth_media(Scene& scene) {
   for (BoundaryLink& link : scene.links) {
@@ -129,6 +159,7 @@ void build_regions(const Assembly& assembly, const std::vector<contact::Interfac
                    Scene& scene) {
   const auto by_region = triangles_by_region(triangles, assembly.parts.size() + 1);
   std::map<Shape, core::AcceleratorId> known;
+  Twins twins(triangles.size());
   const auto build = [&](core::PartId of) {
     const AssemblyPart* const part = of.has_value() ? &assembly.parts[of] : nullptr;
     const RegionTriangles& own = by_region[region_of(of)];
@@ -151,7 +182,7 @@ void build_regions(const Assembly& assembly, const std::vector<contact::Interfac
       for (std::size_t i = 0; i < 3; ++i)
         local[i] = rotation.transpose() * (triangles[index].vertex[i] - region.centre);
       if (!is_back) std::swap(local[1], local[2]);
-      entries.push_back(entry_of(triangles[index], interface_of[index], is_back));
+      entries.push_back(entry_of(triangles[index], index, interface_of[index], is_back));
       place(entries.back(), local);
     }
     region.curved = find_exact(bodies, of, entries);
@@ -166,6 +197,7 @@ void build_regions(const Assembly& assembly, const std::vector<contact::Interfac
     for (const Entry& entry : entries) {
       shape.triangles.push_back(entry.key);
       shape.exact.push_back(entry.exact ? 1 : 0);
+      twins.add(entry, scene.links.size(), static_cast<std::uint32_t>(boundary.size()));
       boundary.push_back(entry.local);
       scene.links.push_back(entry.link);
     }
@@ -184,10 +216,12 @@ void build_regions(const Assembly& assembly, const std::vector<contact::Interfac
       scene.accelerators.push_back(std::make_shared<Accelerator>(boundary, shape.labels, part != nullptr,
                                                                  assembly.accelerator, std::move(exact)));
     }
+    region.thin_gaps = scene.accelerator(region).has_thin_gaps();
     scene.regions.push_back(region);
   };
   build(core::PartId::none());
   for (const core::PartId part : assembly.parts.ids()) build(part);
+  twins.link(scene);
   link_smooth_media(scene);
 }
 

@@ -43,8 +43,12 @@ class StoredPropagation {
       : region_(region), accelerator_(scene.accelerator(region)), photon_(photon) {}
 
   Wall next_wall() const {
-    const scene::Exit exit = accelerator_.find_exit(region_.point_to_local(photon_.position),
-                                                    region_.direction_to_local(photon_.ray.direction));
+    const core::Vec3 origin = region_.point_to_local(photon_.position);
+    const core::Vec3 direction = region_.direction_to_local(photon_.ray.direction);
+    scene::Exit exit;
+    if (photon_.on_triangle != scene::kNoTriangle)
+      exit = accelerator_.exit_across_gap(origin, direction, photon_.on_triangle);
+    if (exit.triangle == scene::kNoTriangle) exit = accelerator_.find_exit(origin, direction);
     return {exit.triangle, exit.distance_mm, exit.resolved};
   }
   double depth_left() const { return photon_.optical_depth; }
@@ -57,9 +61,10 @@ class StoredPropagation {
     normal_ = region_.direction_to_world(accelerator_.normal(wall.triangle));
     return photon_.ray.direction.dot(normal_);
   }
-  void reflect_at(const Wall&, double) {
+  void reflect_at(const Wall& wall, double) {
     ++photon_.interactions;
     optics::reflect(photon_.ray, normal_);
+    if (region_.thin_gaps) photon_.on_triangle = wall.triangle;
   }
   bool allowed_by(const PropagationLimits& limits) const {
     return limits.allow(photon_.interactions, photon_.time_ns);

@@ -1,4 +1,4 @@
-#include "scintray/contact/detail/box_tree.hpp"
+#include "scintray/contact/box_tree.hpp"
 
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>

@@ -1,0 +1,269 @@
+#include "scintray/scene/thin_gaps.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <span>
+
+#include "scintray/contact/box_tree.hpp"
+#include "scintray/scene/boundary.hpp"
+
+namespace scintray::scene {
+
+namespace {
+
+/// A gap is thin below this share of both sides of its box: most rays then reach the face beyond (chosen).
+constexpr double kThin = 0.25;
+/// A box ends this much, relative to the region's size, before its face does, so that rounding does not matter.
+constexpr double kInside = 1e-8;
+/// Relative difference of areas up to which a face is its bounding rectangle.
+constexpr double kSameArea = 1e-9;
+/// Planes of one label, beyond which it is a curved face.
+constexpr std::size_t kMostPlanesOfLabel = 32;
+constexpr std::size_t kMostDirections = 256;
+constexpr std::size_t kMostGapsOfFace = 16;
+
+/// Triangles of one label on one plane.
+struct FlatFace {
+  core::Vec3 normal;  ///< unit, out of the region
+  double offset = 0.0;
+  std::vector<std::uint32_t> triangles;
+};
+
+struct Rectangle {
+  core::Vec3 x, y;
+  Eigen::AlignedBox2d sides;
+};
+
+Eigen::Vector2d in_plane(const core::Vec3& x, const core::Vec3& y, const core::Vec3& point) {
+  return {x.dot(point), y.dot(point)};
+}
+
+Eigen::AlignedBox2d bounds_in(const core::Vec3& x, const core::Vec3& y, const FlatFace& face,
+                              const Boundary& boundary) {
+  Eigen::AlignedBox2d bounds;
+  for (const std::uint32_t triangle : face.triangles)
+    for (const core::Vec3& corner : boundary.triangle(triangle)) bounds.extend(in_plane(x, y, corner));
+  return bounds;
+}
+
+double triangle_area_of(const BoundaryTriangle& t) { return 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm(); }
+
+/// The flat faces of each label that has few.
+std::vector<FlatFace> flat_faces(const Boundary& boundary, const std::vector<std::uint32_t>& labels) {
+  std::vector<std::uint32_t> order(boundary.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return labels[a] < labels[b]; });
+  const double tolerance = kCoplanar * boundary.size_mm;
+  std::vector<FlatFace> faces;
+  for (auto first = order.begin(); first != order.end();) {
+    const auto last = std::find_if(first, order.end(),
+                                   [&](std::uint32_t i) { return labels[i] != labels[*first]; });
+    const std::size_t begin = faces.size();
+    for (; first != last; ++first) {
+      const TrianglePlane& plane = boundary.triangle_planes[*first];
+      const BoundaryTriangle corners = boundary.triangle(*first);
+      const auto known = std::find_if(
+          faces.begin() + static_cast<std::ptrdiff_t>(begin), faces.end(), [&](const FlatFace& face) {
+            return face.normal.dot(plane.normal.vec()) > 0.0 &&
+                   std::all_of(corners.begin(), corners.end(), [&](const core::Vec3& corner) {
+                     return std::abs(face.normal.dot(corner) - face.offset) <= tolerance;
+                   });
+          });
+      if (known != faces.end()) {
+        known->triangles.push_back(*first);
+        continue;
+      }
+      if (faces.size() - begin == kMostPlanesOfLabel) break;
+      faces.push_back({plane.normal, plane.offset, {*first}});
+    }
+    if (first != last) faces.resize(begin);
+    first = last;
+  }
+  return faces;
+}
+
+/// The rectangle that a flat face is, if it is one: along a side of one of its first triangles.
+std::optional<Rectangle> rectangle_of(const FlatFace& face, const Boundary& boundary) {
+  constexpr std::size_t kFirst = 4;
+  double area = 0.0;
+  for (const std::uint32_t triangle : face.triangles) area += triangle_area_of(boundary.triangle(triangle));
+  for (std::size_t i = 0; i < std::min(kFirst, face.triangles.size()); ++i) {
+    const BoundaryTriangle corners = boundary.triangle(face.triangles[i]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const core::Vec3 x = (corners[(k + 1) % 3] - corners[k]).normalized();
+      const core::Vec3 y = face.normal.cross(x).normalized();
+      const Eigen::AlignedBox2d sides = bounds_in(x, y, face, boundary);
+      if (std::abs(sides.volume() - area) <= kSameArea * area) return Rectangle{x, y, sides};
+    }
+  }
+  return std::nullopt;
+}
+
+/// Whether a triangle has no point in common with a box about the origin, by the separating axes of both.
+bool apart(const BoundaryTriangle& triangle, const core::Vec3& half) {
+  const auto separates = [&](const core::Vec3& axis) {
+    const double reach = half.dot(axis.cwiseAbs());
+    const double a = axis.dot(triangle[0]), b = axis.dot(triangle[1]), c = axis.dot(triangle[2]);
+    return std::min({a, b, c}) > reach || std::max({a, b, c}) < -reach;
+  };
+  const std::array<core::Vec3, 3> edges{triangle[1] - triangle[0], triangle[2] - triangle[1],
+                                        triangle[0] - triangle[2]};
+  for (int axis = 0; axis < 3; ++axis) {
+    if (separates(core::Vec3::Unit(axis))) return true;
+    for (const core::Vec3& edge : edges)
+      if (separates(core::Vec3::Unit(axis).cross(edge))) return true;
+  }
+  return separates(edges[0].cross(edges[1]));
+}
+
+/// Search for gaps among the flat faces of a region.
+class GapSearch {
+ public:
+  GapSearch(const Boundary& boundary, std::vector<FlatFace> faces)
+      : boundary_(boundary), faces_(std::move(faces)), inside_(kInside * boundary.size_mm) {
+    for (const FlatFace& face : faces_) rectangles_.push_back(rectangle_of(face, boundary));
+  }
+
+  ThinGaps find() {
+    ThinGaps found;
+    std::vector<std::vector<Candidate>> from(faces_.size());
+    for (const std::vector<Placed>& along : by_direction()) pair(along, from);
+    for (std::size_t face = 0; face < faces_.size(); ++face) {
+      std::vector<Candidate>& candidates = from[face];
+      if (candidates.empty() || candidates.size() > kMostGapsOfFace) continue;
+      std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+        return a.common_mm2 > b.common_mm2;
+      });
+      const auto begin = static_cast<std::uint32_t>(found.gaps.size());
+      for (const Candidate& candidate : candidates) found.gaps.push_back(candidate.gap);
+      const auto end = static_cast<std::uint32_t>(found.gaps.size());
+      found.of_triangle.resize(boundary_.size());
+      for (const std::uint32_t triangle : faces_[face].triangles) found.of_triangle[triangle] = {begin, end};
+    }
+    return found;
+  }
+
+ private:
+  /// A face on an axis along which several lie.
+  struct Placed {
+    double at_mm = 0.0;
+    bool forward = false;  ///< its normal points along the axis
+    std::size_t face = 0;
+  };
+  struct Candidate {
+    ThinGap gap;
+    double common_mm2 = 0.0;  ///< of the two faces, projected
+  };
+
+  /// The faces by the axis of their normals, in order of place.
+  std::vector<std::vector<Placed>> by_direction() const {
+    std::vector<core::Vec3> axes;
+    std::vector<std::vector<Placed>> placed;
+    for (std::size_t face = 0; face < faces_.size(); ++face) {
+      const core::Vec3& normal = faces_[face].normal;
+      const auto axis = std::find_if(axes.begin(), axes.end(), [&](const core::Vec3& known) {
+        return known.cross(normal).norm() <= kCoplanar;
+      });
+      if (axis == axes.end() && axes.size() == kMostDirections) continue;
+      const auto number = static_cast<std::size_t>(axis - axes.begin());
+      if (axis == axes.end()) {
+        axes.push_back(normal);
+        placed.emplace_back();
+      }
+      const bool forward = axes[number].dot(normal) > 0.0;
+      placed[number].push_back({forward ? faces_[face].offset : -faces_[face].offset, forward, face});
+    }
+    for (std::vector<Placed>& along : placed)
+      std::stable_sort(along.begin(), along.end(),
+                       [](const Placed& a, const Placed& b) { return a.at_mm < b.at_mm; });
+    return placed;
+  }
+
+  /// Adds the gaps between each face that looks backward and the faces after it that look forward.
+  void pair(const std::vector<Placed>& along, std::vector<std::vector<Candidate>>& from) {
+    for (std::size_t i = 0; i < along.size(); ++i) {
+      if (along[i].forward) continue;
+      const double widest = kThin * widest_side(along[i].face);
+      for (std::size_t k = i + 1; k < along.size() && along[k].at_mm - along[i].at_mm <= widest; ++k) {
+        const double height = along[k].at_mm - along[i].at_mm;
+        if (!along[k].forward || !(height > 2.0 * inside_)) continue;
+        add(along[i].face, along[k].face, height, from);
+        add(along[k].face, along[i].face, height, from);
+      }
+    }
+  }
+
+  double widest_side(std::size_t face) const {
+    Eigen::AlignedBox3d bounds;
+    for (const std::uint32_t triangle : faces_[face].triangles)
+      for (const core::Vec3& corner : boundary_.triangle(triangle)) bounds.extend(corner);
+    return bounds.diagonal().norm();
+  }
+
+  /// Adds the gap that rays cross from one face to another, if it is clear and thin.
+  void add(std::size_t start, std::size_t beyond, double height, std::vector<std::vector<Candidate>>& from) {
+    const std::optional<Rectangle>& rectangle = rectangles_[beyond];
+    if (!rectangle || from[start].size() > kMostGapsOfFace) return;
+    const core::Vec3 &x = rectangle->x, &y = rectangle->y;
+    const Eigen::AlignedBox2d common =
+        rectangle->sides.intersection(bounds_in(x, y, faces_[start], boundary_));
+    if (common.isEmpty() || height > kThin * common.sizes().minCoeff()) return;
+    for (Eigen::AlignedBox2d sides : {rectangle->sides, common}) {
+      sides.min().array() += inside_;
+      sides.max().array() -= inside_;
+      if (!is_clear(*rectangle, sides, faces_[beyond], height)) continue;
+      from[start].push_back({{x, y, sides.min().x(), sides.max().x(), sides.min().y(), sides.max().y(),
+                              faces_[beyond].triangles.front()},
+                             common.volume()});
+      return;
+    }
+  }
+
+  /// Whether nothing is in the box over some of a face, to a height on the region's side of it.
+  bool is_clear(const Rectangle& rectangle, const Eigen::AlignedBox2d& sides, const FlatFace& face,
+                double height) {
+    if (!tree_) index_triangles();
+    const core::Vec3 &x = rectangle.x, &y = rectangle.y, &z = face.normal;
+    const core::Vec3 half(0.5 * sides.sizes().x(), 0.5 * sides.sizes().y(), 0.5 * height - inside_);
+    const Eigen::Vector2d middle = sides.center();
+    const core::Vec3 centre = middle.x() * x + middle.y() * y + (face.offset - 0.5 * height) * z;
+    const core::Vec3 reach = half.x() * x.cwiseAbs() + half.y() * y.cwiseAbs() + half.z() * z.cwiseAbs();
+    contact::Box around;
+    around.add(centre - reach);
+    around.add(centre + reach);
+    const std::vector<std::uint32_t> near = tree_->touching(around);
+    return std::all_of(near.begin(), near.end(), [&](std::uint32_t number) {
+      BoundaryTriangle triangle = boundary_.triangle(number);
+      for (core::Vec3& corner : triangle) {
+        const core::Vec3 from_centre = corner - centre;
+        corner = {x.dot(from_centre), y.dot(from_centre), z.dot(from_centre)};
+      }
+      return apart(triangle, half);
+    });
+  }
+
+  void index_triangles() {
+    std::vector<contact::Box> boxes(boundary_.size());
+    for (std::uint32_t i = 0; i < boundary_.size(); ++i)
+      for (const core::Vec3& corner : boundary_.triangle(i)) boxes[i].add(corner);
+    tree_.emplace(std::move(boxes));
+  }
+
+  const Boundary& boundary_;
+  std::vector<FlatFace> faces_;
+  std::vector<std::optional<Rectangle>> rectangles_;
+  double inside_;  ///< mm
+  std::optional<contact::BoxTree> tree_;
+};
+
+}  // namespace
+
+ThinGaps find_thin_gaps(const Boundary& boundary, const std::vector<std::uint32_t>& labels) {
+  return GapSearch(boundary, flat_faces(boundary, labels)).find();
+}
+
+}  // namespace scintray::scene
