@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <optional>
-#include <span>
+#include <tuple>
+#include <utility>
 
 #include "scintray/contact/box_tree.hpp"
 #include "scintray/scene/boundary.hpp"
@@ -25,7 +27,7 @@ constexpr std::size_t kMostPlanesOfLabel = 32;
 constexpr std::size_t kMostDirections = 256;
 constexpr std::size_t kMostGapsOfFace = 16;
 
-/// Triangles of one label on one plane.
+/// Connected triangles of one label on one plane.
 struct FlatFace {
   core::Vec3 normal;  ///< unit, out of the region
   double offset = 0.0;
@@ -50,6 +52,50 @@ Eigen::AlignedBox2d bounds_in(const core::Vec3& x, const core::Vec3& y, const Fl
 }
 
 double triangle_area_of(const BoundaryTriangle& t) { return 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm(); }
+
+/// Numbers of the connected pieces of a face, by its triangles: those with a side in common are of one piece.
+std::vector<std::size_t> pieces_of(const std::vector<std::uint32_t>& triangles, const Boundary& boundary) {
+  struct Side {
+    std::uint32_t low, high;
+    std::size_t triangle;
+  };
+  std::vector<Side> sides;
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [low, high] = std::minmax(boundary.corners[3 * triangles[i] + k],
+                                           boundary.corners[3 * triangles[i] + (k + 1) % 3]);
+      sides.push_back({low, high, i});
+    }
+  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+    return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle);
+  });
+  std::vector<std::size_t> piece(triangles.size());
+  std::iota(piece.begin(), piece.end(), std::size_t{0});
+  const auto root = [&piece](std::size_t i) {
+    while (piece[i] != i) i = piece[i] = piece[piece[i]];
+    return i;
+  };
+  for (std::size_t i = 1; i < sides.size(); ++i)
+    if (sides[i].low == sides[i - 1].low && sides[i].high == sides[i - 1].high)
+      piece[root(sides[i].triangle)] = root(sides[i - 1].triangle);
+  for (std::size_t i = 0; i < piece.size(); ++i) piece[i] = root(i);
+  return piece;
+}
+
+/// Replaces the faces from `begin` by their connected pieces.
+void split(std::vector<FlatFace>& faces, std::size_t begin, const Boundary& boundary) {
+  const std::vector<FlatFace> whole(faces.begin() + static_cast<std::ptrdiff_t>(begin), faces.end());
+  faces.resize(begin);
+  for (const FlatFace& face : whole) {
+    const std::vector<std::size_t> piece = pieces_of(face.triangles, boundary);
+    std::map<std::size_t, std::size_t> known;
+    for (std::size_t i = 0; i < piece.size(); ++i) {
+      const auto [at, is_new] = known.try_emplace(piece[i], faces.size());
+      if (is_new) faces.push_back({face.normal, face.offset, {}});
+      faces[at->second].triangles.push_back(face.triangles[i]);
+    }
+  }
+}
 
 /// The flat faces of each label that has few.
 std::vector<FlatFace> flat_faces(const Boundary& boundary, const std::vector<std::uint32_t>& labels) {
@@ -82,6 +128,7 @@ std::vector<FlatFace> flat_faces(const Boundary& boundary, const std::vector<std
     }
     if (first != last) faces.resize(begin);
     first = last;
+    split(faces, begin, boundary);
   }
   return faces;
 }
