@@ -37,7 +37,8 @@ class LanePasses : LanePhotons<Real, kDraws> {
   using Light = optics::LightRay<Real>;
   /// Facets are redrawn until at most this number of lanes lacks one; those wait for the next pass.
   static constexpr int kFewLanes = static_cast<int>(kWidth / 4);
-  /// Photons are propagated on while at least this number of lanes is between total reflections.
+  /// Photons are propagated on while at least this number of lanes is between total reflections, and wait at a
+  /// reflector for this number.
   static constexpr int kManyLanes = static_cast<int>(3 * kWidth / 8);
 
  public:
@@ -49,6 +50,8 @@ class LanePasses : LanePhotons<Real, kDraws> {
   }
 
  private:
+  static int number_of_lanes(const Mask& mask) { return __builtin_popcount(lanes_of(mask)); }
+
   /// The state changed by the stages, and the plane that a photon is at.
   struct Now {
     Real state, side;
@@ -75,7 +78,7 @@ class LanePasses : LanePhotons<Real, kDraws> {
       do {
         propagate(now, here);
         here = in(lane_state::kPropagate);
-      } while (__builtin_popcount(lanes_of(here)) >= kManyLanes);
+      } while (number_of_lanes(here) >= kManyLanes);
     } else {
       load_faces(now);
     }
@@ -93,8 +96,14 @@ class LanePasses : LanePhotons<Real, kDraws> {
     const Mask smooth = in(lane_state::kSmooth), facets = in(lane_state::kFacets);
     if (any(smooth | facets)) pass_microsurface(now, smooth, facets);
     if (const Mask here = in(lane_state::kTable); any(here)) interact_with_table(now, here);
-    if (const Mask here = in(lane_state::kReflector); any(here)) reflect_at_reflector(now, here);
-    if (const Mask here = in(lane_state::kPolarise); any(here)) polarise(now, here);
+    // These wait until they are many, while others have a way to go.
+    const int on_their_way = number_of_lanes(in(lane_state::kPropagate) | in(lane_state::kReflected));
+    const auto is_time = [on_their_way](const Mask& here, int many) {
+      return any(here) && (number_of_lanes(here) >= many || on_their_way < kManyLanes);
+    };
+    if (const Mask here = in(lane_state::kReflector); is_time(here, kManyLanes))
+      reflect_at_reflector(now, here);
+    if (const Mask here = in(lane_state::kPolarise); is_time(here, kFewLanes)) polarise(now, here);
     if (const Mask here = in(lane_state::kReflected); any(here)) {
       const Mask within = (load(pool_.interactions) < Real(pool_.most_interactions)) &
                           (load(pool_.time_ns) <= Real(pool_.most_time_ns));
@@ -217,7 +226,7 @@ class LanePasses : LanePhotons<Real, kDraws> {
         m = select(found, facet.normal, m);
         count_drawn(select(pending, facet.drawn, Real(0.0)));
         pending = pending & !facet.accepted;
-      } while (__builtin_popcount(lanes_of(pending)) > kFewLanes);
+      } while (number_of_lanes(pending) > kFewLanes);
     }
     const Mask ready = smooth | (facets & !pending);
     draw(ready, 1.0);
