@@ -1,5 +1,6 @@
 #include <cstddef>
 #include <cstring>
+#include <string>
 
 #include "physics/traced.hpp"
 #include "scintray/transport/step.hpp"
@@ -16,9 +17,9 @@ using namespace scintray::test;
 
 namespace {
 
-/// A turned crystal on grease and a sensor, a rod of another medium in dry contact with it, and a rough ball:
-/// planes and Embree, smooth and rough interfaces, gaps, dispersion.
-std::string mixed_scene(const std::string& accelerator) {
+/// A turned crystal, a rough ball, a slab with a reflector on grease and a sensor, and two crystals beside it
+/// across thin gaps: planes, exact round faces and Embree, smooth and rough interfaces, dispersion.
+std::string mixed_scene(const std::string& accelerator, const std::string& curved) {
   return R"(
 ambient = "vacuum"
 [[part]]
@@ -40,6 +41,18 @@ translate = ["0 mm", "20 mm", "0 mm"]
 medium = "LSO_roncali2013"
 surface = "polished_lambertian_097"
 [[part]]
+name = "plate"
+box = ["3 mm", "3 mm", "1 mm"]
+translate = ["0 mm", "23.1 mm", "0 mm"]
+medium = "LSO_roncali2013"
+surface = "polished"
+[[part]]
+name = "plate_beside"
+box = ["3 mm", "3 mm", "1 mm"]
+translate = ["3.1 mm", "23.1 mm", "0 mm"]
+medium = "LSO_roncali2013"
+surface = "polished"
+[[part]]
 name = "pad"
 box = ["3 mm", "3 mm", "0.5 mm"]
 place = { touch = "slab", side = "-z" }
@@ -58,7 +71,7 @@ time = "0 ns"
 photons = 2_000
 [run]
 accelerator = ")" +
-         accelerator + "\"\n";
+         accelerator + "\"\ncurved = \"" + curved + "\"\n";
 }
 
 /// Records that went through bytes.
@@ -105,7 +118,10 @@ Boundary through_bytes(const Boundary& boundary) {
   copy.corners = through_bytes(boundary.corners);
   copy.triangle_planes = through_bytes(boundary.triangle_planes);
   copy.planes = through_bytes(boundary.planes);
+  copy.opposite_planes = boundary.opposite_planes;
   copy.plane_triangles = through_bytes(boundary.plane_triangles);
+  copy.merged = {through_bytes(boundary.merged.corners), through_bytes(boundary.merged.stands_for)};
+  copy.thin_gaps = {through_bytes(boundary.thin_gaps.gaps), through_bytes(boundary.thin_gaps.of_triangle)};
   copy.exact = through_bytes(boundary.exact);
   copy.size_mm = boundary.size_mm;
   copy.closed = boundary.closed;
@@ -117,6 +133,7 @@ Scene through_bytes(const Scene& scene) {
   Scene copy;
   copy.regions = through_bytes(scene.regions);
   copy.links = through_bytes(scene.links);
+  copy.twins = through_bytes(scene.twins);
   copy.interfaces = through_bytes(scene.interfaces);
   copy.optics.media = through_bytes(scene.optics.media);
   copy.optics.table = through_bytes(scene.optics.table);
@@ -145,11 +162,16 @@ void check_same(const Photon& a, const Photon& b) {
 }  // namespace
 
 TEST_CASE("A scene and a photon that were copied as bytes continue to the same bits") {
-  for (const std::string accelerator : {"auto", "embree"}) {
-    CAPTURE(accelerator);
-    const SceneSpec spec = scene_spec(mixed_scene(accelerator));
+  struct Run {
+    std::string accelerator, curved;
+  };
+  for (const Run& run : {Run{"auto", "exact"}, Run{"auto", "facets"}, Run{"embree", "exact"}}) {
+    CAPTURE(run.accelerator);
+    CAPTURE(run.curved);
+    const SceneSpec spec = scene_spec(mixed_scene(run.accelerator, run.curved));
     const BuiltScene built = SceneBuilder().build(spec);
     const Scene copy = through_bytes(built.scene);
+    CHECK(built.scene.regions[kAmbientRegion].thin_gaps == (run.curved == "facets"));
     const PhotonSource source(spec.source, built.scene);
     PropagationLimits limits;
     limits.interactions = 500;

@@ -149,7 +149,9 @@ Accelerator::Accelerator(Boundary boundary)
     : boundary_(std::move(boundary)), start_mm_(kStartAhead * boundary_.size_mm) {
   if (boundary_.meshed() > 0 && boundary_.planes.empty())
     embree_ = std::make_unique<EmbreeScene>(boundary_.vertices,
-                                            std::span(boundary_.corners).first(3 * boundary_.meshed()));
+                                            boundary_.merged.empty()
+                                                ? std::span(boundary_.corners).first(3 * boundary_.meshed())
+                                                : std::span(std::as_const(boundary_.merged.corners)));
   index_facets();
   const std::vector<BodyQuadric>& quadrics = boundary_.exact.quadrics;
   convex_cylinders_ = is_convex_body() && !quadrics.empty() &&
@@ -184,8 +186,7 @@ Exit Accelerator::exit_across_gap(const core::Vec3& origin, const core::Vec3& di
     const ThinGap& gap = thin.gaps[i];
     const double x = product(gap.x, origin), y = product(gap.y, origin);
     if (!gap.contains(x, y)) continue;
-    const Approach approach =
-        approach_of(gap.beyond, core::Lanes(origin, -1.0), core::Lanes(direction, 0.0));
+    const Approach approach = approach_of(gap.beyond, core::Lanes(origin, -1.0), core::Lanes(direction, 0.0));
     if (!(approach.cosine > 0.0)) break;
     if (gap.contains(x + approach.distance_mm * product(gap.x, direction),
                      y + approach.distance_mm * product(gap.y, direction)))
@@ -325,7 +326,8 @@ mesh::Foot Accelerator::nearest_at(std::uint32_t triangle, const core::Vec3& poi
 FirstHit Accelerator::first_hit(core::FourFloats origin_and_start, core::FourFloats direction) const {
   RTCRayHit hit = make_ray(origin_and_start, direction);
   intersect(embree_->scene, hit);
-  return {hit.ray.tfar, 0.0f, hit.hit.geomID == RTC_INVALID_GEOMETRY_ID ? kNoTriangle : hit.hit.primID, 0};
+  return {hit.ray.tfar, 0.0f,
+          hit.hit.geomID == RTC_INVALID_GEOMETRY_ID ? kNoTriangle : searched(hit.hit.primID), 0};
 }
 
 Exit Accelerator::exact_exit(const core::Vec3& origin, const core::Vec3& direction, FirstHit hit) const {
@@ -404,7 +406,7 @@ Accelerator::Inside Accelerator::inside_by_embree(const core::Vec3& point,
   // Near the start or near an edge the side of the hit is uncertain in single precision.
   const float edge = std::min({hit.hit.u, hit.hit.v, 1.0f - hit.hit.u - hit.hit.v});
   if (hit.ray.tfar < kBehind * boundary_.size_mm || edge < kClearOfEdge) return Inside::unclear;
-  return normal(hit.hit.primID).dot(direction) > 0.0 ? Inside::yes : Inside::no;
+  return normal(searched(hit.hit.primID)).dot(direction) > 0.0 ? Inside::yes : Inside::no;
 }
 
 bool Accelerator::inside_by_search(const core::Vec3& point, const core::Vec3& direction) const {

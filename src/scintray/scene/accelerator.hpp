@@ -63,8 +63,8 @@ class Accelerator {
   /// `direction` leaves the region.
   Exit find_exit(const core::Vec3& origin, const core::Vec3& direction) const;
 
-  /// As find_exit, from the face of the triangle `left`, where it is across a thin gap from there that the ray
-  /// leaves; kNoTriangle where it is not, or where this is not clear.
+  /// As find_exit, from the face of the triangle `left`, where it is across a thin gap from there that the
+  /// ray leaves; kNoTriangle where it is not, or where this is not clear.
   Exit exit_across_gap(const core::Vec3& origin, const core::Vec3& direction, std::uint32_t left) const;
   bool has_thin_gaps() const { return !boundary_.thin_gaps.empty(); }
 
@@ -146,6 +146,10 @@ class Accelerator {
   Exit exit_by_search(const core::Vec3& origin, const core::Vec3& direction) const;
   Inside inside_by_embree(const core::Vec3& point, const core::Vec3& direction) const;
   bool inside_by_search(const core::Vec3& point, const core::Vec3& direction) const;
+  /// A triangle of the boundary that Embree's stands for.
+  std::uint32_t searched(std::uint32_t number) const {
+    return boundary_.merged.empty() ? number : boundary_.merged.stands_for[number];
+  }
   /// Distance (mm) along the ray to the triangle's plane.
   double distance_to_plane(std::uint32_t triangle, const core::Vec3& origin,
                            const core::Vec3& direction) const {

@@ -125,8 +125,10 @@ Boundary make_boundary(const std::vector<BoundaryTriangle>& triangles,
                       "accelerator \"planes\" is asked for, but a region is not convex with at most " +
                           std::to_string(kMostPlanes) + " planes",
                       "use accelerator = \"auto\" or \"embree\""});
-  if (!planes && kind != scene_file::AcceleratorKind::embree)
-    boundary.thin_gaps = find_thin_gaps(boundary, labels);
+  if (planes) return boundary;
+  const std::vector<FlatFace> faces = flat_faces(boundary, labels);
+  boundary.merged = merge_flat_faces(boundary, faces);
+  if (kind != scene_file::AcceleratorKind::embree) boundary.thin_gaps = find_thin_gaps(boundary, faces);
   return boundary;
 }
 

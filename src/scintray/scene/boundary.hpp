@@ -8,6 +8,7 @@
 
 #include "scintray/core/plain_vec.hpp"
 #include "scintray/scene/exact_bodies.hpp"
+#include "scintray/scene/flat_faces.hpp"
 #include "scintray/scene/thin_gaps.hpp"
 #include "scintray/scene_file/run.hpp"
 
@@ -45,6 +46,7 @@ struct Boundary {
   std::uint32_t opposite_planes = 0;           ///< of these, the first: two by two with opposite normals
   std::vector<std::uint32_t> plane_triangles;  ///< ranges of BoundingPlane
   ExactBodies exact;                           ///< round bodies; empty: all triangles are faces as they are
+  MergedTriangles merged;                      ///< that Embree searches; empty: the triangles as they are
   ThinGaps thin_gaps;                          ///< between flat faces, where Embree searches
   double size_mm = 0.0;                        ///< diagonal of the bounding box
   bool closed = true;  ///< by the triangles that are not on exact bodies; false for the ambient region

@@ -146,9 +146,8 @@ struct BoundaryLink {
   core::MediumId smooth_to;  ///< medium behind a plain interface between media of one index; none: another,
                              ///< or phases are kept
   bool from_back = true;
-  std::uint32_t twin = kNoTriangle;  ///< this triangle in the boundary of the region on its other side
 };
-static_assert(std::is_trivially_copyable_v<BoundaryLink> && sizeof(BoundaryLink) == 16);
+static_assert(std::is_trivially_copyable_v<BoundaryLink> && sizeof(BoundaryLink) == 12);
 
 /// Connected space of one medium: a part less the parts nested in it, or the ambient space.
 struct Region {
@@ -161,7 +160,7 @@ struct Region {
   /// most of the boundary smooth, so that they are often totally reflected, or bounded by planes with
   /// surfaces for lanes (lane_surface_at.hpp).
   bool in_lanes = false;
-  bool curved = false;                                           ///< its accelerator has exact bodies
+  bool curved = false;     ///< its accelerator has exact bodies
   bool thin_gaps = false;  ///< it has some: photons in it keep the triangle of the flat face that they are on
   core::PlainVec3 centre = core::Vec3(core::Vec3::Zero());       ///< origin of the region's frame, mm
   core::PlainMatrix3 rotation = core::PlainMatrix3::identity();  ///< world = centre + rotation * local
@@ -190,6 +189,8 @@ static_assert(std::is_trivially_copyable_v<Region> && sizeof(Region) == 120);
 struct SceneRecords {
   core::IdVector<core::RegionId, Region> regions;
   std::vector<BoundaryLink> links;  ///< one per triangle of a region's boundary, region after region
+  std::vector<std::uint32_t>
+      twins;  ///< likewise: the triangle in the boundary of the region on its other side
   core::IdVector<core::InterfaceId, Interface> interfaces;
   SceneOptics optics;
 
@@ -197,6 +198,9 @@ struct SceneRecords {
   const BoundaryLink* links_of(const Region& region) const { return links.data() + region.first_link; }
   const BoundaryLink& link(const Region& region, std::uint32_t triangle) const {
     return links_of(region)[triangle];
+  }
+  std::uint32_t twin(const Region& region, std::uint32_t triangle) const {
+    return twins[region.first_link + triangle];
   }
 };
 

@@ -3,10 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
-#include <numeric>
 #include <optional>
-#include <tuple>
 #include <utility>
 
 #include "scintray/contact/box_tree.hpp"
@@ -18,21 +15,13 @@ namespace {
 
 /// A gap is thin below this share of both sides of its box: most rays then reach the face beyond (chosen).
 constexpr double kThin = 0.25;
-/// A box ends this much, relative to the region's size, before its face does, so that rounding does not matter.
+/// A box ends this much, relative to the region's size, before its face does, so that rounding does not
+/// matter.
 constexpr double kInside = 1e-8;
 /// Relative difference of areas up to which a face is its bounding rectangle.
 constexpr double kSameArea = 1e-9;
-/// Planes of one label, beyond which it is a curved face.
-constexpr std::size_t kMostPlanesOfLabel = 32;
 constexpr std::size_t kMostDirections = 256;
 constexpr std::size_t kMostGapsOfFace = 16;
-
-/// Connected triangles of one label on one plane.
-struct FlatFace {
-  core::Vec3 normal;  ///< unit, out of the region
-  double offset = 0.0;
-  std::vector<std::uint32_t> triangles;
-};
 
 struct Rectangle {
   core::Vec3 x, y;
@@ -51,93 +40,10 @@ Eigen::AlignedBox2d bounds_in(const core::Vec3& x, const core::Vec3& y, const Fl
   return bounds;
 }
 
-double triangle_area_of(const BoundaryTriangle& t) { return 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm(); }
-
-/// Numbers of the connected pieces of a face, by its triangles: those with a side in common are of one piece.
-std::vector<std::size_t> pieces_of(const std::vector<std::uint32_t>& triangles, const Boundary& boundary) {
-  struct Side {
-    std::uint32_t low, high;
-    std::size_t triangle;
-  };
-  std::vector<Side> sides;
-  for (std::size_t i = 0; i < triangles.size(); ++i)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto [low, high] = std::minmax(boundary.corners[3 * triangles[i] + k],
-                                           boundary.corners[3 * triangles[i] + (k + 1) % 3]);
-      sides.push_back({low, high, i});
-    }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle);
-  });
-  std::vector<std::size_t> piece(triangles.size());
-  std::iota(piece.begin(), piece.end(), std::size_t{0});
-  const auto root = [&piece](std::size_t i) {
-    while (piece[i] != i) i = piece[i] = piece[piece[i]];
-    return i;
-  };
-  for (std::size_t i = 1; i < sides.size(); ++i)
-    if (sides[i].low == sides[i - 1].low && sides[i].high == sides[i - 1].high)
-      piece[root(sides[i].triangle)] = root(sides[i - 1].triangle);
-  for (std::size_t i = 0; i < piece.size(); ++i) piece[i] = root(i);
-  return piece;
-}
-
-/// Replaces the faces from `begin` by their connected pieces.
-void split(std::vector<FlatFace>& faces, std::size_t begin, const Boundary& boundary) {
-  const std::vector<FlatFace> whole(faces.begin() + static_cast<std::ptrdiff_t>(begin), faces.end());
-  faces.resize(begin);
-  for (const FlatFace& face : whole) {
-    const std::vector<std::size_t> piece = pieces_of(face.triangles, boundary);
-    std::map<std::size_t, std::size_t> known;
-    for (std::size_t i = 0; i < piece.size(); ++i) {
-      const auto [at, is_new] = known.try_emplace(piece[i], faces.size());
-      if (is_new) faces.push_back({face.normal, face.offset, {}});
-      faces[at->second].triangles.push_back(face.triangles[i]);
-    }
-  }
-}
-
-/// The flat faces of each label that has few.
-std::vector<FlatFace> flat_faces(const Boundary& boundary, const std::vector<std::uint32_t>& labels) {
-  std::vector<std::uint32_t> order(boundary.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return labels[a] < labels[b]; });
-  const double tolerance = kCoplanar * boundary.size_mm;
-  std::vector<FlatFace> faces;
-  for (auto first = order.begin(); first != order.end();) {
-    const auto last = std::find_if(first, order.end(),
-                                   [&](std::uint32_t i) { return labels[i] != labels[*first]; });
-    const std::size_t begin = faces.size();
-    for (; first != last; ++first) {
-      const TrianglePlane& plane = boundary.triangle_planes[*first];
-      const BoundaryTriangle corners = boundary.triangle(*first);
-      const auto known = std::find_if(
-          faces.begin() + static_cast<std::ptrdiff_t>(begin), faces.end(), [&](const FlatFace& face) {
-            return face.normal.dot(plane.normal.vec()) > 0.0 &&
-                   std::all_of(corners.begin(), corners.end(), [&](const core::Vec3& corner) {
-                     return std::abs(face.normal.dot(corner) - face.offset) <= tolerance;
-                   });
-          });
-      if (known != faces.end()) {
-        known->triangles.push_back(*first);
-        continue;
-      }
-      if (faces.size() - begin == kMostPlanesOfLabel) break;
-      faces.push_back({plane.normal, plane.offset, {*first}});
-    }
-    if (first != last) faces.resize(begin);
-    first = last;
-    split(faces, begin, boundary);
-  }
-  return faces;
-}
-
 /// The rectangle that a flat face is, if it is one: along a side of one of its first triangles.
 std::optional<Rectangle> rectangle_of(const FlatFace& face, const Boundary& boundary) {
   constexpr std::size_t kFirst = 4;
-  double area = 0.0;
-  for (const std::uint32_t triangle : face.triangles) area += triangle_area_of(boundary.triangle(triangle));
+  const double area = area_of(face, boundary);
   for (std::size_t i = 0; i < std::min(kFirst, face.triangles.size()); ++i) {
     const BoundaryTriangle corners = boundary.triangle(face.triangles[i]);
     for (std::size_t k = 0; k < 3; ++k) {
@@ -170,8 +76,8 @@ bool apart(const BoundaryTriangle& triangle, const core::Vec3& half) {
 /// Search for gaps among the flat faces of a region.
 class GapSearch {
  public:
-  GapSearch(const Boundary& boundary, std::vector<FlatFace> faces)
-      : boundary_(boundary), faces_(std::move(faces)), inside_(kInside * boundary.size_mm) {
+  GapSearch(const Boundary& boundary, const std::vector<FlatFace>& faces)
+      : boundary_(boundary), faces_(faces), inside_(kInside * boundary.size_mm) {
     for (const FlatFace& face : faces_) rectangles_.push_back(rectangle_of(face, boundary));
   }
 
@@ -182,9 +88,8 @@ class GapSearch {
     for (std::size_t face = 0; face < faces_.size(); ++face) {
       std::vector<Candidate>& candidates = from[face];
       if (candidates.empty() || candidates.size() > kMostGapsOfFace) continue;
-      std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
-        return a.common_mm2 > b.common_mm2;
-      });
+      std::stable_sort(candidates.begin(), candidates.end(),
+                       [](const Candidate& a, const Candidate& b) { return a.common_mm2 > b.common_mm2; });
       const auto begin = static_cast<std::uint32_t>(found.gaps.size());
       for (const Candidate& candidate : candidates) found.gaps.push_back(candidate.gap);
       const auto end = static_cast<std::uint32_t>(found.gaps.size());
@@ -301,7 +206,7 @@ class GapSearch {
   }
 
   const Boundary& boundary_;
-  std::vector<FlatFace> faces_;
+  const std::vector<FlatFace>& faces_;
   std::vector<std::optional<Rectangle>> rectangles_;
   double inside_;  ///< mm
   std::optional<contact::BoxTree> tree_;
@@ -309,8 +214,8 @@ class GapSearch {
 
 }  // namespace
 
-ThinGaps find_thin_gaps(const Boundary& boundary, const std::vector<std::uint32_t>& labels) {
-  return GapSearch(boundary, flat_faces(boundary, labels)).find();
+ThinGaps find_thin_gaps(const Boundary& boundary, const std::vector<FlatFace>& faces) {
+  return GapSearch(boundary, faces).find();
 }
 
 }  // namespace scintray::scene

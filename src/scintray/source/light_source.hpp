@@ -31,8 +31,8 @@ struct Photon {
   std::uint32_t interactions = 0;  ///< boundary interactions so far
   std::uint32_t scatterings = 0;   ///< bulk scatterings so far
   /// Triangle of the region's boundary on whose face the photon is, where that is of use: on an exact round
-  /// face since its last reflection there, or on a flat face of a region with thin gaps; scene::kNoTriangle: on
-  /// none.
+  /// face since its last reflection there, or on a flat face of a region with thin gaps; scene::kNoTriangle:
+  /// on none.
   std::uint32_t on_triangle = 0xffffffffu;
 };
 static_assert(std::is_trivially_copyable_v<Photon>);

@@ -185,8 +185,8 @@ inline void cross(const scene::Scene& scene, const scene::Interface& interface, 
   const core::RegionId before = photon.region;
   photon.region = result.from_back ? interface.front : interface.back;
   const scene::Region& entered = scene.regions[photon.region];
-  photon.on_triangle = entered.thin_gaps ? scene.link(scene.regions[before], result.triangle).twin
-                                         : scene::kNoTriangle;
+  photon.on_triangle =
+      entered.thin_gaps ? scene.twin(scene.regions[before], result.triangle) : scene::kNoTriangle;
   const core::MediumId medium = entered.medium;
   photon.optics = scene.optics.at(medium, photon.wavelength_nm);
   if (reaches_sensor(scene, interface, result.from_back)) {

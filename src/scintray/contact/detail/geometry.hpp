@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "scintray/contact/contacts.hpp"
 #include "scintray/contact/box_tree.hpp"
+#include "scintray/contact/contacts.hpp"
 #include "scintray/core/vec.hpp"
 
 namespace scintray::contact {

@@ -120,12 +120,14 @@ class Twins {
   void add(const Entry& entry, std::size_t link, std::uint32_t number) {
     (entry.link.from_back ? of_back_ : of_front_)[entry.index] = {link, number};
   }
-  /// Sets BoundaryLink::twin.
-  void link(Scene& scene) const {
+  /// As of SceneRecords.
+  std::vector<std::uint32_t> of_links() const {
+    std::vector<std::uint32_t> twins(2 * of_back_.size());
     for (std::size_t i = 0; i < of_back_.size(); ++i) {
-      scene.links[of_back_[i].link].twin = of_front_[i].number;
-      scene.links[of_front_[i].link].twin = of_back_[i].number;
+      twins[of_back_[i].link] = of_front_[i].number;
+      twins[of_front_[i].link] = of_back_[i].number;
     }
+    return twins;
   }
 
  private:
@@ -221,7 +223,7 @@ void build_regions(const Assembly& assembly, const std::vector<contact::Interfac
   };
   build(core::PartId::none());
   for (const core::PartId part : assembly.parts.ids()) build(part);
-  twins.link(scene);
+  scene.twins = twins.of_links();
   link_smooth_media(scene);
 }
 

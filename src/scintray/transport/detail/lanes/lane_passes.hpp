@@ -37,8 +37,8 @@ class LanePasses : LanePhotons<Real, kDraws> {
   using Light = optics::LightRay<Real>;
   /// Facets are redrawn until at most this number of lanes lacks one; those wait for the next pass.
   static constexpr int kFewLanes = static_cast<int>(kWidth / 4);
-  /// Photons are propagated on while at least this number of lanes is between total reflections, and wait at a
-  /// reflector for this number.
+  /// Photons are propagated on while at least this number of lanes is between total reflections, and wait at
+  /// a reflector for this number.
   static constexpr int kManyLanes = static_cast<int>(3 * kWidth / 8);
 
  public:
