@@ -33,7 +33,7 @@ TracedPhotons trace_with(SceneSpec spec, int lane_width, scene::SceneBuilder& bu
 }
 
 TracedPhotons trace_with(const std::string& scene, int lane_width) {
-  scene::SceneBuilder builder(tables_of_its_own());
+  scene::SceneBuilder builder(tables_of_this_build());
   return trace_with(scene_spec(scene), lane_width, builder);
 }
 
@@ -364,7 +364,7 @@ TEST_CASE("The shipped scenes have the same results for every width of the lanes
   const std::string text =
       std::regex_replace(config::read_text_file(file), std::regex("\nphotons = [0-9_]+"), "\nphotons = 600");
   const SceneSpec spec = SceneFile::from_text(text, file.string()).spec(0);
-  scene::SceneBuilder builder(tables_of_its_own());
+  scene::SceneBuilder builder(tables_of_this_build());
   const TracedPhotons alone = trace_with(spec, 1, builder);
   REQUIRE(alone.result.segments > 500);
   for (const int width : core::lane_widths()) {
@@ -533,7 +533,7 @@ TEST_CASE("Blocks traced together have the results of blocks traced one by one")
   // Enough photons for one thread that two blocks make a piece of work.
   SceneSpec spec = scene_spec(replaced(crystal("paint", kPaint), "photons = 3_000", "photons = 140_000"));
   spec.run.threads = 1;
-  scene::SceneBuilder builder(tables_of_its_own());
+  scene::SceneBuilder builder(tables_of_this_build());
   const TracedPhotons alone = trace_with(spec, 1, builder);
   const int width = core::lane_widths().back();
   check_same(alone, trace_with(spec, width, builder));
