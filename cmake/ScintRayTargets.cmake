@@ -1,7 +1,8 @@
 # scintray_module(NAME [NOT_TRACING | PREPARING] [NOT_IN_THREADS] [LINK modules and libraries] [PRIVATE_LINK libraries]
 # [WITHOUT sources] [JOIN number]) makes the static library scintray_NAME of every source of src/scintray/NAME, less those of WITHOUT.
 # Headers are included as "scintray/NAME/header.hpp", their path below src/; those in a folder called detail are not
-# installed. Where sources are joined, JOIN of them are (12; what all of them include is compiled once for each join).
+# installed. Where sources are joined, JOIN of them are (12, or 24 where they are
+# NOT_TRACING or PREPARING; what all of them include is compiled once for each join).
 # A module named in SCINTRAY_APART is compiled file by file all the same: for daily work on it.
 # NOT_TRACING: the module reads, writes and prints, and a release of it is compiled in less time, with -O1; where a
 # sanitizer is added, without optimisation.
@@ -91,6 +92,9 @@ function(scintray_module name)
   endif()
   if(NOT MODULE_JOIN)
     set(MODULE_JOIN 12)
+    if(MODULE_NOT_TRACING OR MODULE_PREPARING)
+      set(MODULE_JOIN 24)
+    endif()
   endif()
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} *.cpp)
   foreach(source IN LISTS MODULE_WITHOUT)

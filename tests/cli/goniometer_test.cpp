@@ -196,6 +196,7 @@ TEST_CASE("table compare draws reflectances beside Fresnel, and prints what it d
 
 TEST_CASE("table list prints every surface with model, source, needs and reflectances, and shows them") {
   const auto folder = scratch_folder("table_list");
+  const WithTablesOfThisRun tables;
   const Ended ended = run_program({"table", "list", "--rays", "200", "--page", "surfaces.html"}, folder);
   CAPTURE(ended.output);
   REQUIRE(ended.exit_code == cli::kSuccess);

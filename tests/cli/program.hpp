@@ -16,6 +16,7 @@
 #include <thread>
 #include <vector>
 
+#include "support/environment.hpp"
 #include "support/shared.hpp"
 
 namespace scintray::test {
@@ -91,6 +92,13 @@ class Program {
 
   std::filesystem::path log_;
   pid_t child_ = -1;
+};
+
+/// While it exists, programs take the surface tables that tests of this run have made, and keep theirs for
+/// others.
+class WithTablesOfThisRun {
+  ScopedVariable place_{"SCINTRAY_CACHE", tables_of_this_run().string()},
+      size_{"SCINTRAY_CACHE_SIZE", "1 GiB"};
 };
 
 inline Ended run_program(const std::vector<std::string>& arguments, const std::filesystem::path& folder,

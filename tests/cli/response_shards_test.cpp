@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "cli/program.hpp"
+#include "cli/program_words.hpp"
 #include "scintray/cli/exit_codes.hpp"
 #include "support/same_results.hpp"
 #include "support/shared.hpp"
@@ -18,8 +19,6 @@ using namespace scintray;
 using namespace scintray::test;
 
 namespace {
-
-using Words = std::vector<std::string>;
 
 /// Two crystals of different media with a sensor each, so that a backward map has two spectra.
 const char* const kTwoMedia = R"(
@@ -57,11 +56,6 @@ const Words kForward{"--direction", "forward", "--photons", "60", "--pitch", "1 
 const Words kBackward{"--direction", "backward", "--channel-photons", "2003",
                       "--pitch",     "1 mm",     "--delays",          "4"};
 
-Words operator+(Words words, const Words& more) {
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
-}
-
 /// A folder with the scene.
 std::filesystem::path map_folder(const std::string& name) {
   const auto folder = scratch_folder("response_shards_" + name);
@@ -70,20 +64,6 @@ std::filesystem::path map_folder(const std::string& name) {
 }
 
 Words build(const Words& options) { return Words{"response", "build", "scene.toml", "-q"} + options; }
-
-void check_done(const Words& words, const std::filesystem::path& folder) {
-  const Ended ended = run_program(words, folder);
-  CAPTURE(ended.output);
-  CHECK(ended.exit_code == cli::kSuccess);
-}
-
-void check_refused(const Words& words, const std::filesystem::path& folder, const Words& message,
-                   int code = cli::kBadInput) {
-  const Ended ended = run_program(words, folder);
-  CAPTURE(ended.output);
-  CHECK(ended.exit_code == code);
-  for (const std::string& part : message) CHECK(contains(ended.output, part));
-}
 
 std::string bytes_of(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);

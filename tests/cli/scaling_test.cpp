@@ -4,6 +4,7 @@
 
 #include "cli/dark_crystal.hpp"
 #include "cli/program.hpp"
+#include "cli/program_words.hpp"
 #include "scintray/cli/exit_codes.hpp"
 #include "scintray/core/file_lock.hpp"
 #include "scintray/results/results.hpp"
@@ -16,19 +17,12 @@ using namespace scintray::test;
 
 namespace {
 
-using Words = std::vector<std::string>;
-
 /// A scene and the options that make it short.
 struct ShortScene {
   std::string name;  ///< of the test's folder
   std::string file;
   Words options;
 };
-
-Words operator+(Words words, const Words& more) {
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
-}
 
 Ended run_short(const ShortScene& scene, const Words& more, const std::filesystem::path& folder) {
   return run_program(Words{"run", scene.file, "--no-report", "-q"} + scene.options + more, folder);
@@ -136,11 +130,6 @@ std::filesystem::path folder_of(const ShortScene& scene, const std::string& purp
   return scene_folder(purpose + "_" + scene.name, scene.name == "events" ? kEventScene : kPhotonScene);
 }
 
-void check_done(const Ended& ended) {
-  CAPTURE(ended.output);
-  CHECK(ended.exit_code == cli::kSuccess);
-}
-
 /// Names in a folder, hidden ones included.
 Words names_in(const std::filesystem::path& folder) {
   Words names;
@@ -155,9 +144,11 @@ TEST_CASE("One thread, seven threads and five shards in any order make the same 
   for (const ShortScene& scene : all_scenes()) {
     CAPTURE(scene.name);
     const auto folder = folder_of(scene, "shards");
+    // Two runs make their surface tables, by one thread and by seven; the shards share a third one.
     check_done(run_short(scene, {"-o", "one.h5", "-t", "1"}, folder));
     check_done(run_short(scene, {"-o", "seven.h5", "-t", "7"}, folder));
     check_same_results(folder / "one.h5", folder / "seven.h5");
+    const WithTablesOfThisRun tables;
     Words parts;
     for (const std::string shard : {"4", "1", "5", "3", "2"}) {
       parts.push_back(shard + ".shard");
@@ -195,13 +186,6 @@ Ended stop_run(const ShortScene& scene, const Words& more, const std::filesystem
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   program.signal(signal);
   return program.wait();
-}
-
-void check_refused(const Words& words, const std::filesystem::path& folder, const Words& message) {
-  const Ended ended = run_program(words, folder);
-  CAPTURE(ended.output);
-  CHECK(ended.exit_code == cli::kBadInput);
-  for (const std::string& part : message) CHECK(contains(ended.output, part));
 }
 
 void replace_in(const std::filesystem::path& file, const std::string& from, const std::string& to) {

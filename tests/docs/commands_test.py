@@ -65,8 +65,8 @@ NUMBERS = {'17/400': '1/3', '"$SLURM_ARRAY_TASK_ID/400"': '2/3', '{}/400': '3/3'
            '::: $(seq 400)': '', 'build/release/bin/scintray': 'scintray', 'parallel scintray': 'scintray',
            'exec scintray': 'scintray',
            '"$1/400"': '1/3', '"part.$1/$1.shard"': 'part.shard',
-           # Fits of one field, tables of few rays, a run of few photons.
-           '--seeds 5': '--seeds 1', 'table stack lso': 'table stack --rays 100 lso',
+           # Fits of one small field, tables of few rays, a run of few photons.
+           '"0.45 um" --seeds 5': '"0.45 um" --seeds 1 --points 256', '--seeds 5': '--seeds 1', 'table stack lso': 'table stack --rays 100 lso',
            'run wrapped.toml': 'run wrapped.toml --photons 20000',
            # A list of a gigabyte and more.
            '--photons 1001000000': '--photons 1001',

@@ -17,6 +17,7 @@ PROGRAM = os.environ['SCINTRAY']
 PAGES = ['docs/first_hour.md', *sorted(str(p.relative_to(SOURCE)) for p in SOURCE.glob('docs/howto/*.md'))]
 INSTALLED = '/usr/share/scintray/'
 MOST = {'--events': 60, '--photons': 3000, '--rays': 2000, '--paths': 20}
+FEW_OF_MAP = ['--channel-photons', '2000']  # of a response map whose command leaves them open
 
 
 def blocks(text):
@@ -31,6 +32,8 @@ def few(words):
     for i, word in enumerate(words[:-1]):
         if word in MOST:
             result[i + 1] = str(min(int(words[i + 1]), MOST[word]))
+    if words[:2] == ['response', 'build'] and FEW_OF_MAP[0] not in words:
+        result += FEW_OF_MAP
     return result
 
 

@@ -15,7 +15,7 @@ using namespace scintray::test;
 
 namespace {
 
-constexpr double kIndex = 1.6;
+constexpr double kLensIndex = 1.6;
 
 /// A ray in the plane through the axis: height (mm), position along the axis (mm) and angle to it (rad).
 struct AxialRay {
@@ -80,13 +80,13 @@ void check_focus(const std::string& shape, double bottom_radius, double top_radi
     REQUIRE(built.scene.parts.front().curved);
     for (const double height : {0.01, 0.5, 1.3}) {
       AxialRay ray{height, -10.0, 0.0};
-      if (bottom_radius > 0.0) ray = refracted(ray, bottom_radius, bottom_radius, true, 1.0, kIndex);
+      if (bottom_radius > 0.0) ray = refracted(ray, bottom_radius, bottom_radius, true, 1.0, kLensIndex);
       if (top_radius > 0.0) {
-        ray = refracted(ray, thickness - top_radius, top_radius, false, kIndex, 1.0);
+        ray = refracted(ray, thickness - top_radius, top_radius, false, kLensIndex, 1.0);
       } else {
         ray.r += (thickness - ray.z) * std::tan(ray.angle);
         ray.z = thickness;
-        ray.angle = std::asin(kIndex * std::sin(ray.angle));
+        ray.angle = std::asin(kLensIndex * std::sin(ray.angle));
       }
       CAPTURE(height);
       CHECK(traced_crossing(built, spec, height) == doctest::Approx(crossing(ray)).epsilon(1e-9));
@@ -109,9 +109,9 @@ TEST_CASE("Law: lenses and a ball focus where rays through their spheres by Snel
   check_focus(R"(sphere = {{ radius = "2 mm", subdivisions = {} }})"
               "\ntranslate = [\"0 mm\", \"0 mm\", \"2 mm\"]",
               2.0, 2.0, 4.0);
-  AxialRay near = refracted({1e-5, -10.0, 0.0}, 2.0, 2.0, true, 1.0, kIndex);
-  near = refracted(near, 2.0, 2.0, false, kIndex, 1.0);
-  CHECK(crossing(near) - 2.0 == doctest::Approx(kIndex * 4.0 / (4.0 * (kIndex - 1.0))).epsilon(1e-6));
+  AxialRay near = refracted({1e-5, -10.0, 0.0}, 2.0, 2.0, true, 1.0, kLensIndex);
+  near = refracted(near, 2.0, 2.0, false, kLensIndex, 1.0);
+  CHECK(crossing(near) - 2.0 == doctest::Approx(kLensIndex * 4.0 / (4.0 * (kLensIndex - 1.0))).epsilon(1e-6));
 }
 
 TEST_CASE(

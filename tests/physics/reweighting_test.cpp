@@ -27,7 +27,7 @@ using enum OpticalProperty;
 std::filesystem::path run_scene(const std::string& text, std::uint64_t seed) {
   const auto output = scratch_folder(fmt::format("reweighting_{}", seed)) / "run.h5";
   SimulationOptions options;
-  options.surface_hooks.cache.clear();
+  options.surface_hooks = tables_of_this_build();
   ResultsFile results(output);
   Simulation(SceneFile::from_text(text, source_file("test.toml").string()), options).run_all(results);
   return output;

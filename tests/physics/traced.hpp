@@ -78,16 +78,17 @@ inline scene_file::SceneSpec scene_spec(const std::string& text, const scene_fil
       .spec(0);
 }
 
-/// Surface tables are made, not taken from the user's cache.
-inline materials::SurfaceFactory::Hooks tables_of_its_own() {
+/// Surface tables are made by this build, once for all tests of a run, and not taken from the user's cache.
+inline materials::SurfaceFactory::Hooks tables_of_this_build() {
   materials::SurfaceFactory::Hooks hooks;
-  hooks.cache.clear();
+  hooks.cache = tables_of_this_run();
+  hooks.cache_bytes = materials::kDefaultCacheBytes;
   return hooks;
 }
 
-/// A scene ready to be traced, with surface tables of its own.
+/// A scene ready to be traced, with surface tables of this build.
 inline std::shared_ptr<const simulation::SimulationPoint> ready(scene_file::SceneSpec spec) {
-  scene::SceneBuilder builder(tables_of_its_own());
+  scene::SceneBuilder builder(tables_of_this_build());
   return std::make_shared<const simulation::SimulationPoint>(std::move(spec), builder);
 }
 

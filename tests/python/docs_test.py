@@ -59,7 +59,7 @@ class Pages(Case):
 
     def test_the_example_runs(self):
         source = (SOURCE / 'docs/examples/lyso_array.py').read_text()
-        short = source.replace('photons_per_cell=10_000', 'photons_per_cell=100') \
+        short = source.replace('photons_per_cell=10_000', 'photons_per_cell=100, photons_per_channel=2000') \
             .replace('events=40_000', 'events=3000')
         self.assertEqual(source.count('photons_per_cell=10_000') + source.count('events=40_000'), 2)
         self.in_folder()

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <cstdlib>
 #include <iostream>
 
 #include "support/folders.hpp"
@@ -47,6 +48,15 @@ std::filesystem::path program_file() { return build_folder() / "bin" / "scintray
 std::filesystem::path scratch_folder(const std::string& name) {
   static const ScratchFolders folders;
   return folders.make(name);
+}
+
+std::filesystem::path tables_of_this_run() {
+  static const std::filesystem::path folder = [] {
+    const auto of_ctest = build_folder() / "test-tables";  // tests/CMakeLists.txt
+    const char* named = std::getenv("SCINTRAY_CACHE");
+    return named && of_ctest == named ? of_ctest : scratch_folder("tables");
+  }();
+  return folder;
 }
 
 }  // namespace scintray::test

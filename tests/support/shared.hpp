@@ -20,4 +20,8 @@ std::filesystem::path program_file();
 /// An empty folder for one test's files, below the build folder; gone when the test program ends.
 std::filesystem::path scratch_folder(const std::string& name);
 
+/// The folder where the tests of one run of ctest keep surface tables for each other. It has none when ctest
+/// starts, so that all are of this build. A test program that is run without ctest has a folder of its own.
+std::filesystem::path tables_of_this_run();
+
 }  // namespace scintray::test

@@ -59,7 +59,7 @@ struct Emitting {
 Emitting emitting(const std::string& source) {
   const scene_file::SceneSpec spec =
       scene_file::SceneFile::from_text(scene_emitting(source), source_file("test.toml").string()).spec(0);
-  Emitting of{scene::SceneBuilder(tables_of_its_own()).build(spec).scene, nullptr};
+  Emitting of{scene::SceneBuilder(tables_of_this_build()).build(spec).scene, nullptr};
   of.source = make_light_source(spec, of.scene);
   return of;
 }
