@@ -4,7 +4,9 @@
 
 #include "scintray/core/error.hpp"
 #include "scintray/core/sampling.hpp"
+#include "scintray/mesh/shapes/polygon.hpp"
 #include "scintray/mesh/shapes/primitives.hpp"
+#include "scintray/mesh/shapes/shapes.hpp"
 #include "scintray/scene/accelerator.hpp"
 
 using namespace scintray;
@@ -36,6 +38,28 @@ double box_exit(const Vec3& p, const Vec3& d, const Vec3& low, const Vec3& high)
   for (int axis = 0; axis < 3; ++axis)
     if (d[axis] != 0.0) nearest = std::min(nearest, ((d[axis] > 0.0 ? high : low)[axis] - p[axis]) / d[axis]);
   return nearest;
+}
+
+/// A prism over a polygon in the plane, counterclockwise, from z = 0.
+TriMesh prism_over(const std::vector<std::array<double, 2>>& polygon, double height) {
+  const auto n = static_cast<std::uint32_t>(polygon.size());
+  TriMesh mesh;
+  for (const double z : {0.0, height})
+    for (const auto& [x, y] : polygon) mesh.vertices.push_back({x, y, z});
+  bool simple = true;
+  for (const auto& [a, b, c] :
+       triangulate_polygon({mesh.vertices.begin(), mesh.vertices.begin() + n}, simple)) {
+    mesh.triangles.push_back({b, a, c});
+    mesh.triangles.push_back({n + a, n + b, n + c});
+  }
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const std::uint32_t next = (i + 1) % n;
+    mesh.triangles.push_back({i, next, n + next});
+    mesh.triangles.push_back({i, n + next, n + i});
+  }
+  mesh.groups = {"all"};
+  mesh.group.assign(mesh.triangles.size(), 0);
+  return mesh;
 }
 
 }  // namespace
@@ -140,4 +164,49 @@ TEST_CASE("A point is inside a body or not, by planes and by rays alike") {
     inside += planes.contains(p);
   }
   CHECK(inside > 500);
+}
+
+TEST_CASE("Flat faces of many triangles are searched as few, and rays meet what they met") {
+  struct Body {
+    std::string name;
+    TriMesh mesh;
+    std::size_t searched;  ///< triangles; 0: all
+  };
+  const TriMesh bracket = prism_over({{{0, 0}, {5, 0}, {5, 1}, {1, 1}, {1, 4}, {0, 4}}}, 3.0);
+  const TriMesh frame = make_tube({4.0, 2.0, 3.0, 4});
+  const std::vector<Body> bodies{{"box", subdivide_faces(make_box({-1, -1, -10}, {1, 1, 10}), 16), 12},
+                                 {"bracket", subdivide_faces(bracket, 4), 2 * 4 + 6 * 2},
+                                 {"hexagon", subdivide_faces(make_prism(6, 2.0, 5.0), 5), 2 * 4 + 6 * 2},
+                                 // The ends have a hole: they keep their triangles.
+                                 {"frame", subdivide_faces(frame, 3), 8 * 2 + 2 * 8 * 9},
+                                 {"as it is", bracket, 0}};
+  for (const Body& body : bodies)
+    for (const bool outside : {false, true}) {
+      CAPTURE(body.name);
+      CAPTURE(outside);
+      const auto triangles = triangles_of(body.mesh, outside);
+      const std::vector<std::uint32_t> one(triangles.size(), 0);
+      const Accelerator few(triangles, one, !outside, AcceleratorKind::embree);
+      const Accelerator all(triangles, numbered(triangles.size()), !outside, AcceleratorKind::embree);
+      CHECK(all.boundary().merged.empty());
+      CHECK(few.boundary().merged.corners.size() == 3 * body.searched);
+      Rng rng(9, StreamKind::other, 0);
+      std::uint64_t met = 0, unlike = 0;
+      for (std::uint32_t i = 0; i < 60'000; ++i) {
+        const BoundaryTriangle& t = triangles[i % triangles.size()];
+        const Vec3 from = (t[0] + t[1] + t[2]) / 3.0 + 0.1 * rng.uniform() * (t[1] - t[0]);
+        const Vec3 along =
+            sample_lambertian(-all.normal(i % static_cast<std::uint32_t>(triangles.size())), rng);
+        const Exit a = few.find_exit(from, along), b = all.find_exit(from, along);
+        REQUIRE((a.triangle == kNoTriangle) == (b.triangle == kNoTriangle));
+        if (a.triangle == kNoTriangle) continue;
+        ++met;
+        REQUIRE(std::abs(a.distance_mm - b.distance_mm) < 2e-4 * (1.0 + b.distance_mm));
+        const bool alike = std::abs(a.distance_mm - b.distance_mm) < 1e-9 &&
+                           (few.normal(a.triangle) - all.normal(b.triangle)).norm() < 1e-9;
+        unlike += alike ? 0 : 1;  // next to an edge: either wall
+      }
+      if (!outside) CHECK(met == 60'000);
+      CHECK(unlike < 10);
+    }
 }

@@ -16,7 +16,7 @@ namespace {
 
 /// Planes of one label, beyond which it is a curved face.
 constexpr std::size_t kMostPlanesOfLabel = 32;
-/// CornerNumbers of an outline, beyond which its triangles are kept: the time to clip ears is quadratic.
+/// Corners of an outline, beyond which its triangles are kept: the time to clip ears is quadratic.
 constexpr std::size_t kMostOutlineCorners = 256;
 /// Relative difference of areas up to which triangles cover a face.
 constexpr double kSameCover = 1e-9;
