@@ -39,7 +39,7 @@ class LanePasses : LanePhotons<Real, kDraws> {
   static constexpr int kFewLanes = static_cast<int>(kWidth / 4);
   /// Photons are propagated on while at least this number of lanes is between total reflections, and wait at
   /// a reflector for this number.
-  static constexpr int kManyLanes = static_cast<int>(3 * kWidth / 8);
+  static constexpr int kManyLanes = static_cast<int>(kWidth / 2);
 
  public:
   explicit LanePasses(LanePool& pool) : Photons(pool) {}
