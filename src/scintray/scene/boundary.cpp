@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "scintray/core/error.hpp"
+#include "scintray/scene/detail/flat_faces.hpp"
 
 namespace scintray::scene {
 

@@ -8,8 +8,6 @@
 
 #include "scintray/core/plain_vec.hpp"
 #include "scintray/scene/exact_bodies.hpp"
-#include "scintray/scene/flat_faces.hpp"
-#include "scintray/scene/thin_gaps.hpp"
 #include "scintray/scene_file/run.hpp"
 
 namespace scintray::scene {
@@ -36,6 +34,41 @@ struct BoundingPlane {
   std::uint32_t triangles_end = 0;  ///< range of Boundary::plane_triangles; empty: all lead to one
 };
 static_assert(std::is_trivially_copyable_v<BoundingPlane>);
+
+/// A boundary whose flat faces have fewer triangles: each covers triangles of the boundary that have one
+/// plane and one label.
+struct MergedTriangles {
+  std::vector<std::uint32_t> corners;     ///< three a triangle, indices into Boundary::vertices
+  std::vector<std::uint32_t> stands_for;  ///< a triangle of the boundary that it covers, or some of it
+
+  bool empty() const { return corners.empty(); }
+};
+
+/// A box of the region with nothing in it, one side of which lies on a face of the boundary, and the opposite
+/// one on the plane of a parallel face. A ray from that plane to the face meets nothing else where both ends
+/// are in the box.
+struct ThinGap {
+  core::PlainVec3 x, y;  ///< axes of unit length in the planes, along the sides of the box
+  double low_x = 0.0, high_x = 0.0, low_y = 0.0, high_y = 0.0;  ///< sides of the box, mm
+  std::uint32_t beyond = 0;                                     ///< a triangle of the face
+
+  /// Whether a point between the two planes is in the box.
+  bool contains(double along_x, double along_y) const {
+    return along_x >= low_x && along_x <= high_x && along_y >= low_y && along_y <= high_y;
+  }
+};
+static_assert(std::is_trivially_copyable_v<ThinGap>);
+
+/// The thin gaps of a region by the triangles from whose planes rays start.
+struct ThinGaps {
+  struct Range {
+    std::uint32_t begin = 0, end = 0;
+  };
+  std::vector<ThinGap> gaps;
+  std::vector<Range> of_triangle;  ///< ranges of `gaps` by triangle of the boundary; empty: there are none
+
+  bool empty() const { return gaps.empty(); }
+};
 
 /// The boundary of one shape of region as plain records, in the region's own frame (mm).
 struct Boundary {

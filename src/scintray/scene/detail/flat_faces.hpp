@@ -1,14 +1,12 @@
 #pragma once
-/// Flat faces of a boundary, and the fewest triangles that cover them.
+/// Flat faces of a boundary, and what makes searches in it faster: few triangles, and thin gaps.
 
 #include <cstdint>
 #include <vector>
 
-#include "scintray/core/vec.hpp"
+#include "scintray/scene/boundary.hpp"
 
 namespace scintray::scene {
-
-struct Boundary;
 
 /// Connected triangles of one label on one plane.
 struct FlatFace {
@@ -23,17 +21,13 @@ std::vector<FlatFace> flat_faces(const Boundary& boundary, const std::vector<std
 
 double area_of(const FlatFace& face, const Boundary& boundary);
 
-/// A boundary whose flat faces have fewer triangles: each covers triangles of the boundary that have one
-/// plane and one label.
-struct MergedTriangles {
-  std::vector<std::uint32_t> corners;     ///< three a triangle, indices into Boundary::vertices
-  std::vector<std::uint32_t> stands_for;  ///< a triangle of the boundary that it covers, or some of it
-
-  bool empty() const { return corners.empty(); }
-};
-
 /// The boundary with as few triangles on each face as its outline allows, where that is one polygon; empty
 /// where no face has fewer.
 MergedTriangles merge_flat_faces(const Boundary& boundary, const std::vector<FlatFace>& faces);
+
+/// The thin gaps of a region that Embree searches. Faces count that are rectangles; the gap is narrower than
+/// a quarter of both sides of what two faces have in common. Gaps from one face to more than 16 others are
+/// left out, and those of more than 256 directions: light there is followed by search.
+ThinGaps find_thin_gaps(const Boundary& boundary, const std::vector<FlatFace>& faces);
 
 }  // namespace scintray::scene

@@ -1,5 +1,3 @@
-#include "scintray/scene/thin_gaps.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,7 +5,7 @@
 #include <utility>
 
 #include "scintray/contact/box_tree.hpp"
-#include "scintray/scene/boundary.hpp"
+#include "scintray/scene/detail/flat_faces.hpp"
 
 namespace scintray::scene {
 

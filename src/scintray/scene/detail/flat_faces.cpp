@@ -1,4 +1,4 @@
-#include "scintray/scene/flat_faces.hpp"
+#include "scintray/scene/detail/flat_faces.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,6 @@
 #include <tuple>
 
 #include "scintray/mesh/shapes/polygon.hpp"
-#include "scintray/scene/boundary.hpp"
 
 namespace scintray::scene {
 
