@@ -166,7 +166,7 @@ TEST_CASE("A point is inside a body or not, by planes and by rays alike") {
   CHECK(inside > 500);
 }
 
-TEST_CASE("Flat faces of many triangles are searched as few, and rays meet what they met") {
+TEST_CASE("Flat faces of many triangles are searched as few, and rays hit what they hit before") {
   struct Body {
     std::string name;
     TriMesh mesh;
@@ -191,7 +191,7 @@ TEST_CASE("Flat faces of many triangles are searched as few, and rays meet what 
       CHECK(all.boundary().merged.empty());
       CHECK(few.boundary().merged.corners.size() == 3 * body.searched);
       Rng rng(9, StreamKind::other, 0);
-      std::uint64_t met = 0, unlike = 0;
+      std::uint64_t hits = 0, unlike = 0;
       for (std::uint32_t i = 0; i < 20'000; ++i) {
         const BoundaryTriangle& t = triangles[i % triangles.size()];
         const Vec3 from = (t[0] + t[1] + t[2]) / 3.0 + 0.1 * rng.uniform() * (t[1] - t[0]);
@@ -200,13 +200,13 @@ TEST_CASE("Flat faces of many triangles are searched as few, and rays meet what 
         const Exit a = few.find_exit(from, along), b = all.find_exit(from, along);
         REQUIRE((a.triangle == kNoTriangle) == (b.triangle == kNoTriangle));
         if (a.triangle == kNoTriangle) continue;
-        ++met;
+        ++hits;
         REQUIRE(std::abs(a.distance_mm - b.distance_mm) < 2e-4 * (1.0 + b.distance_mm));
         const bool alike = std::abs(a.distance_mm - b.distance_mm) < 1e-9 &&
                            (few.normal(a.triangle) - all.normal(b.triangle)).norm() < 1e-9;
         unlike += alike ? 0 : 1;  // next to an edge: either wall
       }
-      if (!outside) CHECK(met == 20'000);
+      if (!outside) CHECK(hits == 20'000);
       CHECK(unlike < 10);
     }
 }

@@ -55,7 +55,7 @@ struct Around {
 /// Rays from points of all triangles into the space around the bodies, cosine-distributed.
 struct Rays {
   std::uint64_t across = 0;  ///< that cross a gap without a search
-  std::uint64_t near = 0;    ///< of all that meet a body within 0.2 mm
+  std::uint64_t near = 0;    ///< of all that hit a body within 0.2 mm
 };
 
 Rays rays_from_all(const Around& around) {
@@ -70,17 +70,17 @@ Rays rays_from_all(const Around& around) {
       if (a + b > 1.0) a = 1.0 - a, b = 1.0 - b;
       const Vec3 from = t[0] + a * (t[1] - t[0]) + b * (t[2] - t[0]);
       const Vec3 along = sample_lambertian(-accelerator.normal(i), rng);
-      const Exit met = around.first_on(from, along);
-      rays.near += met.distance_mm < 0.2 ? 1 : 0;
+      const Exit hit = around.first_on(from, along);
+      rays.near += hit.distance_mm < 0.2 ? 1 : 0;
       const Exit across = accelerator.exit_across_gap(from, along, i);
       if (across.triangle == kNoTriangle) continue;
       ++rays.across;
       CAPTURE(from.transpose());
       CAPTURE(along.transpose());
-      REQUIRE(met.triangle != kNoTriangle);
-      REQUIRE(around.labels[across.triangle] == around.labels[met.triangle]);
-      REQUIRE(std::abs(across.distance_mm - met.distance_mm) < 1e-9);
-      REQUIRE((accelerator.normal(across.triangle) - accelerator.normal(met.triangle)).norm() < 1e-9);
+      REQUIRE(hit.triangle != kNoTriangle);
+      REQUIRE(around.labels[across.triangle] == around.labels[hit.triangle]);
+      REQUIRE(std::abs(across.distance_mm - hit.distance_mm) < 1e-9);
+      REQUIRE((accelerator.normal(across.triangle) - accelerator.normal(hit.triangle)).norm() < 1e-9);
     }
   return rays;
 }
@@ -134,12 +134,12 @@ photons = 4_000
 
 }  // namespace
 
-TEST_CASE("Across a thin gap light meets the face that a search of all triangles finds") {
+TEST_CASE("Across a thin gap light reaches the face that a search of all triangles finds") {
   const TriMesh plate = make_box({2.1, -3, 1}, {2.15, 7, 11});
   struct Gap {
     std::string name;
     std::vector<TriMesh> bodies;
-    double least_share;  ///< of rays that meet a body nearby: that cross without a search
+    double least_share;  ///< of rays that hit a body nearby: that cross without a search
   };
   const std::vector<Gap> gaps{
       {"facing", {crystal_at(0, 0), crystal_at(2.1, 0)}, 0.99},

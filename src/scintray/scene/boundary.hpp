@@ -45,7 +45,7 @@ struct MergedTriangles {
 };
 
 /// A box of the region with nothing in it, one side of which lies on a face of the boundary, and the opposite
-/// one on the plane of a parallel face. A ray from that plane to the face meets nothing else where both ends
+/// one on the plane of a parallel face. A ray from that plane to the face hits nothing else where both ends
 /// are in the box.
 struct ThinGap {
   core::PlainVec3 x, y;  ///< axes of unit length in the planes, along the sides of the box
