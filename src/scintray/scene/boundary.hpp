@@ -18,6 +18,9 @@ inline constexpr double kCoplanar = 1e-10;
 /// A triangle of a region's boundary in the region's own frame; normals point out of the region.
 using BoundaryTriangle = std::array<core::Vec3, 3>;
 
+/// mm2
+inline double area_of(const BoundaryTriangle& t) { return 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm(); }
+
 /// The plane of a triangle.
 struct TrianglePlane {
   core::PlainVec3 normal;  ///< unit, out of the region

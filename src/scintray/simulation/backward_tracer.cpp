@@ -26,10 +26,6 @@ void choose(std::uint64_t count, std::uint32_t slots, core::Rng& rng, const Visi
   }
 }
 
-double area_of(const scene::BoundaryTriangle& triangle) {
-  return 0.5 * (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).norm();
-}
-
 core::Vec3 point_on(const scene::BoundaryTriangle& triangle, core::Rng& rng) {
   const double root = std::sqrt(rng.uniform()), v = rng.uniform();
   return (1.0 - root) * triangle[0] + root * (1.0 - v) * triangle[1] + root * v * triangle[2];
@@ -248,7 +244,7 @@ void BackwardTracer::find_windows(const tally::ReadoutChannels& channels) {
       if (!channel.has_value()) continue;
       std::vector<Window>& windows = windows_[channel.index()];
       const double below = windows.empty() ? 0.0 : windows.back().area_below_mm2;
-      windows.push_back({id, triangle, below + area_of(scene_.triangle(region, triangle))});
+      windows.push_back({id, triangle, below + scene::area_of(scene_.triangle(region, triangle))});
     }
   }
 }

@@ -320,10 +320,6 @@ class InterfaceMaker {
   std::map<std::tuple<std::string, core::MediumId, core::MediumId>, core::SurfaceId> surfaces_;
 };
 
-double triangle_area(const contact::InterfaceTriangle& t) {
-  return 0.5 * (t.vertex[1] - t.vertex[0]).cross(t.vertex[2] - t.vertex[0]).norm();
-}
-
 }  // namespace
 
 Scene assemble(const Assembly& assembly) {
@@ -348,7 +344,7 @@ Scene assemble(const Assembly& assembly) {
   std::vector<core::InterfaceId> interface_of;
   for (const contact::InterfaceTriangle& triangle : triangles) {
     interface_of.push_back(maker.interface_of(triangle));
-    const double area = triangle_area(triangle);
+    const double area = area_of(triangle.vertex);
     scene.interface_area_mm2[interface_of.back()] += area;
     if (!triangle.back_face.has_value() || !triangle.front_face.has_value()) continue;
     scene.faces[triangle.back_face].contact_area_mm2 += area;

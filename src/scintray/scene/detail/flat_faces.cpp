@@ -20,8 +20,6 @@ constexpr std::size_t kMostOutlineCorners = 256;
 /// Relative difference of areas up to which triangles cover a face.
 constexpr double kSameCover = 1e-9;
 
-double triangle_area_of(const BoundaryTriangle& t) { return 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm(); }
-
 /// Numbers of the connected pieces of a face, by its triangles: those with a side in common are of one piece.
 std::vector<std::size_t> pieces_of(const std::vector<std::uint32_t>& triangles, const Boundary& boundary) {
   struct Side {
@@ -126,7 +124,7 @@ CornerNumbers fewer_triangles(const FlatFace& face, const Boundary& boundary) {
   double area = 0.0;
   CornerNumbers triangles;
   for (const auto& triangle : mesh::triangulate_polygon(corners, simple)) {
-    area += triangle_area_of({corners[triangle[0]], corners[triangle[1]], corners[triangle[2]]});
+    area += area_of(BoundaryTriangle{corners[triangle[0]], corners[triangle[1]], corners[triangle[2]]});
     for (const std::uint32_t corner : triangle) triangles.push_back(outline[corner]);
   }
   const double whole = area_of(face, boundary);
@@ -137,7 +135,7 @@ CornerNumbers fewer_triangles(const FlatFace& face, const Boundary& boundary) {
 
 double area_of(const FlatFace& face, const Boundary& boundary) {
   double area = 0.0;
-  for (const std::uint32_t triangle : face.triangles) area += triangle_area_of(boundary.triangle(triangle));
+  for (const std::uint32_t triangle : face.triangles) area += area_of(boundary.triangle(triangle));
   return area;
 }
 
