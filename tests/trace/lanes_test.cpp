@@ -314,12 +314,6 @@ base = "lso_ground_30um"
 tracing = { mode = "on_the_spot" }
 )");
   }
-  SUBCASE("a table that this test makes, on all threads") {
-    scene = crystal("made", R"([surfaces.made]
-base = "lso_ground_30um"
-tracing = { rays = 100, incidence_step = "30 deg", refine = false }
-)");
-  }
   SUBCASE("shares of the area") {
     scene = crystal("in_parts", std::string(kBacked) + R"([surfaces.in_parts]
 mixture = [{ surface = "backed", share = 0.4 }, { surface = "polished", share = 0.6 }]
