@@ -46,6 +46,12 @@ inline void happens_after([[maybe_unused]] const void* address) {
 #endif
 }
 
+/// Declares it at the end of its scope.
+struct Declared {
+  const void* address;
+  ~Declared() { happens_before(address); }
+};
+
 /// The three stages of the pipeline. Pieces under way are consecutive, so that each has a slot of its own.
 class Stages {
  public:
@@ -54,6 +60,10 @@ class Stages {
          const std::function<void(std::uint64_t, void*)>& collect)
       : count_(count), stop_(stop), work_(work), collect_(collect), slots_(most_under_way) {
     happens_before(this);
+  }
+  /// After all pieces, those too that have failed or were not taken because another has.
+  ~Stages() {
+    for (const std::shared_ptr<void>& slot : slots_) happens_after(&slot);
   }
 
   std::uint64_t begin_next(tbb::flow_control& control) {
@@ -70,8 +80,8 @@ class Stages {
     happens_after(this);
     std::shared_ptr<void>& slot = slots_[number % slots_.size()];
     happens_after(&slot);
+    const Declared also_where_it_fails{&slot};
     slot = work_(number);
-    happens_before(&slot);
     return number;
   }
 

@@ -22,17 +22,15 @@ DrawNormals kernel_of(int lane_width) {
 
 /// Draws as many deviates as a kernel does, and sets the stream to behind them.
 void draw(DrawNormals kernel, Rng& rng, NormalLanes& lanes) {
-  Rng::State stream = rng.state();
   static_assert(NormalLanes::kLeft == Rng::kDrawn);
-  std::copy(stream.drawn.begin(), stream.drawn.end(), lanes.numbers);
-  std::copy(stream.counter.begin(), stream.counter.end(), lanes.counter);
-  std::copy(stream.key.begin(), stream.key.end(), lanes.key);
+  std::copy(rng.drawn().begin(), rng.drawn().end(), lanes.numbers);
+  std::copy(rng.counter().begin(), rng.counter().end(), lanes.counter);
+  std::copy(rng.key().begin(), rng.key().end(), lanes.key);
   lanes.left = rng.ahead().size();
   kernel(lanes);
-  // As many numbers as before are left: the last of the new ones.
-  stream.counter[0] += NormalLanes::kBlocks;
-  std::copy(std::end(lanes.numbers) - Rng::kDrawn, std::end(lanes.numbers), stream.drawn.begin());
-  rng.go_on_from(stream);
+  Rng::Numbers last;
+  std::copy(std::end(lanes.numbers) - Rng::kDrawn, std::end(lanes.numbers), last.begin());
+  rng.skip_blocks(NormalLanes::kBlocks, last);
 }
 
 }  // namespace

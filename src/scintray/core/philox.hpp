@@ -38,27 +38,38 @@ class Rng {
   Rng(std::uint64_t seed, StreamKind kind, std::uint64_t a, std::uint64_t b = 0, std::uint64_t set = 0)
       : counter_{0, b, a, static_cast<std::uint64_t>(kind)}, key_{seed, set} {}
 
+  /// Becomes the stream of another address.
+  void restart(std::uint64_t seed, StreamKind kind, std::uint64_t a, std::uint64_t b, std::uint64_t set) {
+    counter_ = {0, b, a, static_cast<std::uint64_t>(kind)};
+    key_ = {seed, set};
+    used_ = kDrawn;
+  }
+
   /// Numbers of two blocks.
   static constexpr int kDrawn = 8;
   using Numbers = std::array<std::uint64_t, kDrawn>;
-  /// Where a stream is: its next block, and the two before that.
-  struct State {
-    std::array<std::uint64_t, 4> counter;
-    std::array<std::uint64_t, 2> key;
-    Numbers drawn;
-    int used;  ///< of those drawn; where only one block was drawn, of the second
-  };
-  State state() const { return {counter_, key_, drawn_, used_}; }
-  /// Goes on from where a copy of this stream was.
-  void go_on_from(const State& state) {
-    counter_ = state.counter;
-    drawn_ = state.drawn;
-    used_ = state.used;
-  }
-
   /// Counter of the next block, and its key.
   const std::array<std::uint64_t, 4>& counter() const { return counter_; }
   const std::array<std::uint64_t, 2>& key() const { return key_; }
+  /// The two blocks before that; where only one was drawn, it is the second.
+  const Numbers& drawn() const { return drawn_; }
+  /// Place in the stream of the next number to be drawn, from 0.
+  std::uint64_t position() const { return 4 * counter_[0] + static_cast<std::uint64_t>(used_) - kDrawn; }
+  /// Goes on at a place of this stream.
+  /// @param block  the numbers of the block of four around the place before it, as another has drawn them
+  void go_on_at(std::uint64_t position, const std::uint64_t* block) {
+    counter_[0] = (position + 3) / 4;
+    const std::uint64_t in_block = position % 4;
+    used_ = in_block == 0 ? kDrawn : kDrawn / 2 + static_cast<int>(in_block);
+    for (std::size_t i = 0; i < 4; ++i) drawn_[kDrawn / 2 + i] = block[i];
+  }
+  /// Goes on by whole blocks that the caller has drawn, to where as many numbers as before are left.
+  /// @param last  their last numbers
+  void skip_blocks(std::uint64_t blocks, const Numbers& last) {
+    counter_[0] += blocks;
+    drawn_ = last;
+  }
+
   /// Goes on by two blocks, whose numbers the caller has drawn for several streams together and stores at the
   /// returned place: those of counter() and the one after it. None may be left of the blocks before.
   std::uint64_t* take_two_blocks() {
@@ -89,7 +100,7 @@ class Rng {
  private:
   void refill() {
     const std::array<std::uint64_t, 4> block = philox4x64(counter_, key_);
-    std::copy(block.begin(), block.end(), drawn_.begin() + kDrawn / 2);
+    for (std::size_t i = 0; i < 4; ++i) drawn_[kDrawn / 2 + i] = block[i];
     ++counter_[0];
     used_ = kDrawn / 2;
   }

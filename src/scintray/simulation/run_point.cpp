@@ -113,6 +113,11 @@ core::Rng photon_stream(const RunSettings& settings, std::uint64_t event, std::u
   return core::Rng(settings.seed, core::StreamKind::photon, event, photon, settings.point);
 }
 
+void start_photon_stream(const RunSettings& settings, std::uint64_t event, std::uint64_t photon,
+                         core::Rng& stream) {
+  stream.restart(settings.seed, core::StreamKind::photon, event, photon, settings.point);
+}
+
 core::Rng event_stream(const RunSettings& settings, std::uint64_t event) {
   return core::Rng(settings.seed, core::StreamKind::event, event, 0, settings.point);
 }

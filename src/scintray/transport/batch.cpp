@@ -18,8 +18,6 @@ namespace {
 /// first level of the cache.
 constexpr std::size_t kTravellers = 128;
 
-core::PlainVec3 vec(const double (&from)[3]) { return {from[0], from[1], from[2]}; }
-
 }  // namespace
 
 /// Ends of photons, which arrive in any order, to be handed over by number.
@@ -232,6 +230,7 @@ void Batch::Tracing::trace_in_surface_lanes() {
   if (surface_lanes_.empty()) return;
   for (const SurfaceLanes::Left& left : surface_lanes_.run()) {
     Traveller& traveller = travellers_[left.name];
+    traveller.segments += left.segments;
     if (goes_on(traveller, surface_lanes_.finish(left, traveller.photon, traveller.rng)))
       enqueue(left.name);
     else

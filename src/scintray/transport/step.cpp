@@ -263,6 +263,7 @@ Step cross_boundary(const scene::Scene& scene, const BoundaryPlace& at, source::
   const scene::Region& region = scene.regions[photon.region];
   const scene::BoundaryLink& link = scene.link(region, at.triangle);
   Step result;
+  result.segments = 0;
   set_place(link, at, photon, result);
   result.cos_after =
       std::abs(photon.ray.direction.dot(scene.normal_at(region, at.triangle, photon.position)));
@@ -274,6 +275,7 @@ Step absorb_at_boundary(const scene::Scene& scene, const BoundaryPlace& at, core
                         const source::Photon& photon) {
   const scene::BoundaryLink& link = scene.link(scene.regions[photon.region], at.triangle);
   Step result;
+  result.segments = 0;
   set_place(link, at, photon, result);
   result.surface = by;
   absorb_at_surface(scene, scene.interfaces[link.interface], photon, result);

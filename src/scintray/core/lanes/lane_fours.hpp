@@ -34,19 +34,16 @@ static inline void load_fours(const double* const* at, LaneFours<LaneReal<xsimd:
 }
 
 #ifdef __AVX2__
-static inline void store_four(__m256i four, std::uint64_t* first, std::uint64_t* second) {
-  _mm256_storeu_si256(reinterpret_cast<__m256i*>(first), four);
-  _mm256_storeu_si256(reinterpret_cast<__m256i*>(second), four);
-}
-static inline void store_fours(const LaneBits<xsimd::avx2>* words, std::uint64_t* const* first,
-                               std::uint64_t* const* second) {
+/// Four 64-bit numbers of each lane, as they are in memory: store(lane, four) receives those of one lane.
+template <typename Store>
+void store_by_lane(const LaneBits<xsimd::avx2>* words, const Store& store) {
   const __m256i a = words[0].lanes, b = words[1].lanes, c = words[2].lanes, d = words[3].lanes;
   const __m256i ab = _mm256_unpacklo_epi64(a, b), ba = _mm256_unpackhi_epi64(a, b);
   const __m256i cd = _mm256_unpacklo_epi64(c, d), dc = _mm256_unpackhi_epi64(c, d);
-  store_four(_mm256_permute2x128_si256(ab, cd, 0x20), first[0], second[0]);
-  store_four(_mm256_permute2x128_si256(ba, dc, 0x20), first[1], second[1]);
-  store_four(_mm256_permute2x128_si256(ab, cd, 0x31), first[2], second[2]);
-  store_four(_mm256_permute2x128_si256(ba, dc, 0x31), first[3], second[3]);
+  store(0, _mm256_permute2x128_si256(ab, cd, 0x20));
+  store(1, _mm256_permute2x128_si256(ba, dc, 0x20));
+  store(2, _mm256_permute2x128_si256(ab, cd, 0x31));
+  store(3, _mm256_permute2x128_si256(ba, dc, 0x31));
 }
 static inline void load_fours(const double* const* at, LaneFours<LaneReal<xsimd::avx2>>& to) {
   const __m256d a = _mm256_loadu_pd(at[0]), b = _mm256_loadu_pd(at[1]);
@@ -61,24 +58,23 @@ static inline void load_fours(const double* const* at, LaneFours<LaneReal<xsimd:
 #endif
 
 #ifdef __AVX512F__
-static inline void store_fours(const LaneBits<xsimd::avx512f>* words, std::uint64_t* const* first,
-                               std::uint64_t* const* second) {
-  const __m512i a = words[0].lanes, b = words[1].lanes, c = words[2].lanes, d = words[3].lanes;
-  const __m512i ab = _mm512_unpacklo_epi64(a, b), ba = _mm512_unpackhi_epi64(a, b);
-  const __m512i cd = _mm512_unpacklo_epi64(c, d), dc = _mm512_unpackhi_epi64(c, d);
-  // Quarter k of ab and cd has the numbers of lane 2 k, of ba and dc those of lane 2 k + 1.
-  const auto store = [&](__m512i low, __m512i high, int even) {
-    const __m512i front = _mm512_shuffle_i64x2(low, high, _MM_SHUFFLE(2, 0, 2, 0));
-    const __m512i back = _mm512_shuffle_i64x2(low, high, _MM_SHUFFLE(3, 1, 3, 1));
-    const __m512i fronts = _mm512_shuffle_i64x2(front, front, _MM_SHUFFLE(3, 1, 2, 0));
-    const __m512i backs = _mm512_shuffle_i64x2(back, back, _MM_SHUFFLE(3, 1, 2, 0));
-    store_four(_mm512_castsi512_si256(fronts), first[even], second[even]);
-    store_four(_mm512_extracti64x4_epi64(fronts, 1), first[even + 4], second[even + 4]);
-    store_four(_mm512_castsi512_si256(backs), first[even + 2], second[even + 2]);
-    store_four(_mm512_extracti64x4_epi64(backs, 1), first[even + 6], second[even + 6]);
+template <typename Store>
+void store_by_lane(const LaneBits<xsimd::avx512f>* words, const Store& store) {
+  // The steps of load_fours() backwards.
+  const __m512i low = _mm512_set_epi64(11, 10, 3, 2, 9, 8, 1, 0);
+  const __m512i high = _mm512_set_epi64(15, 14, 7, 6, 13, 12, 5, 4);
+  const __m512i ab = _mm512_permutex2var_epi64(words[0].lanes, low, words[2].lanes);
+  const __m512i ba = _mm512_permutex2var_epi64(words[1].lanes, low, words[3].lanes);
+  const __m512i cd = _mm512_permutex2var_epi64(words[0].lanes, high, words[2].lanes);
+  const __m512i dc = _mm512_permutex2var_epi64(words[1].lanes, high, words[3].lanes);
+  const auto two = [&](int lane, __m512i lanes) {
+    store(lane, _mm512_castsi512_si256(lanes));
+    store(lane + 2, _mm512_extracti64x4_epi64(lanes, 1));
   };
-  store(ab, cd, 0);
-  store(ba, dc, 1);
+  two(0, _mm512_unpacklo_epi64(ab, ba));
+  two(1, _mm512_unpackhi_epi64(ab, ba));
+  two(4, _mm512_unpacklo_epi64(cd, dc));
+  two(5, _mm512_unpackhi_epi64(cd, dc));
 }
 static inline void load_fours(const double* const* at, LaneFours<LaneReal<xsimd::avx512f>>& to) {
   const auto two = [&](int lane) {
@@ -95,14 +91,35 @@ static inline void load_fours(const double* const* at, LaneFours<LaneReal<xsimd:
 }
 #endif
 
-template <typename Arch>
-void store_fours(const LaneBitsPair<Arch>* words, std::uint64_t* const* first, std::uint64_t* const* second) {
-  constexpr std::size_t kHalf = LaneBits<Arch>::kWidth;
+#ifdef __AVX2__
+template <typename Arch, typename Store>
+void store_by_lane(const LaneBitsPair<Arch>* words, const Store& store) {
+  constexpr int kHalf = static_cast<int>(LaneBits<Arch>::kWidth);
   const LaneBits<Arch> a[] = {words[0].a, words[1].a, words[2].a, words[3].a};
   const LaneBits<Arch> b[] = {words[0].b, words[1].b, words[2].b, words[3].b};
-  store_fours(a, first, second);
-  store_fours(b, first + kHalf, second + kHalf);
+  store_by_lane(a, store);
+  store_by_lane(b, [&](int lane, __m256i four) { store(lane + kHalf, four); });
 }
+
+/// As for two lanes.
+template <typename Bits>
+void store_fours(const Bits* words, std::uint64_t* const* first, std::uint64_t* const* second) {
+  store_by_lane(words, [&](int lane, __m256i four) {
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(first[lane]), four);
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(second[lane]), four);
+  });
+}
+/// Stores four numbers of each lane at a place of its own.
+template <typename Real>
+void store_fours(const LaneFours<Real>& fours, double* const* to) {
+  const typename Real::Bits words[] = {bits_of(fours.of[0]), bits_of(fours.of[1]), bits_of(fours.of[2]),
+                                       bits_of(fours.of[3])};
+  store_by_lane(words, [&](int lane, __m256i four) {
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(to[lane]), four);
+  });
+}
+#endif
+
 /// Without a way through memory: the load of a vector waits for the stores of its parts.
 static inline void load_ones(const double* const* at, LaneReal<xsimd::sse2>& to) {
   to.lanes = _mm_set_pd(*at[1], *at[0]);

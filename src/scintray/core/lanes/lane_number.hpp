@@ -162,6 +162,11 @@ template <typename Arch>
 struct LaneMaskPair {
   LaneMask<Arch> a, b;
 
+  /// @param bits  as of lanes_of()
+  static LaneMaskPair of(unsigned bits) {
+    return {LaneMask<Arch>::of(bits), LaneMask<Arch>::of(bits >> LaneReal<Arch>::kWidth)};
+  }
+
   friend LaneMaskPair operator&(const LaneMaskPair& x, const LaneMaskPair& y) {
     return {x.a & y.a, x.b & y.b};
   }

@@ -30,11 +30,4 @@ bool leaves_the_scene(const scene::Scene& scene, const std::optional<Eigen::Alig
   return reach <= offset + kRounding * (std::abs(offset) + half.norm());
 }
 
-Step step_out_of_scene() {
-  Step step;
-  step.event = core::StepEvent::escaped;
-  step.region = scene::kAmbientRegion;
-  return step;
-}
-
 }  // namespace scintray::transport

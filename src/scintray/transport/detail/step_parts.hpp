@@ -43,9 +43,9 @@ struct BoundaryPlace {
   double cos_before = 0.0;                      ///< as of Step
 };
 /// The step of a photon transmitted by the surface: into the next region, or its sensor. The photon's
-/// direction is that after the interaction, its region still the old one.
+/// direction is that after the interaction, its region still the old one. Without segments.
 Step cross_boundary(const scene::Scene& scene, const BoundaryPlace& at, source::Photon& photon);
-/// The step of a photon absorbed by a surface.
+/// The step of a photon absorbed by a surface. Without segments.
 Step absorb_at_boundary(const scene::Scene& scene, const BoundaryPlace& at, core::SurfaceId by,
                         const source::Photon& photon);
 
@@ -58,7 +58,12 @@ std::optional<Eigen::AlignedBox3d> ambient_bounds(const scene::Scene& scene);
 bool leaves_the_scene(const scene::Scene& scene, const std::optional<Eigen::AlignedBox3d>& bounds,
                       const source::Photon& photon, const Step& taken);
 /// The step of such light.
-Step step_out_of_scene();
+inline Step step_out_of_scene() {
+  Step step;
+  step.event = core::StepEvent::escaped;
+  step.region = scene::kAmbientRegion;
+  return step;
+}
 
 /// Outcome at an interface: the region that the ray enters, or the surface that absorbed it.
 struct InterfaceOutcome {

@@ -1,19 +1,22 @@
 #include "scintray/transport/detail/surface_lanes.hpp"
 
+#include <bit>
+#include <utility>
+
 #include "scintray/scene/lane_surface_at.hpp"
+#include "scintray/transport/detail/lane_faces.hpp"
 #include "scintray/transport/detail/step_parts.hpp"
 
 namespace scintray::transport {
 
 namespace {
 
-using Numbers = LanePool::Numbers[3];
-
-void put(const core::PlainVec3& from, Numbers& to, std::size_t slot) {
-  for (int axis = 0; axis < 3; ++axis) to[axis][slot] = from[axis];
-}
-core::PlainVec3 vec(const Numbers& from, std::size_t slot) {
-  return {from[0][slot], from[1][slot], from[2][slot]};
+/// The step of a photon that was last reflected. Its segments are counted by the lanes.
+Step reflected_in_lanes() {
+  Step step;
+  step.event = core::StepEvent::reflected;
+  step.segments = 0;
+  return step;
 }
 
 /// A region without planes, for lanes that have no photon.
@@ -27,67 +30,63 @@ LaneRegion empty_region() {
 
 SurfaceLanes::SurfaceLanes(const scene::Scene& scene, const PropagationLimits& limits, RunLanes kernel)
     : scene_(scene), limits_(limits), run_(kernel), lane_scene_(scene), pool_{} {
-  for (LaneRegion& region : pool_.region) region = empty_region();
+  for (LanePhoton& photon : pool_.photons) photon.region = empty_region();
   pool_.most_interactions = static_cast<double>(limits.interactions);
   pool_.most_time_ns = limits.time_ns;
   for (std::uint32_t slot = LanePool::kPhotons; slot-- > 0;) free_.push_back(slot);
 }
 
 void SurfaceLanes::enter(std::uint32_t name, const source::Photon& photon, const core::Rng& rng) {
-  const std::size_t slot = free_.back();
+  const std::uint32_t slot = free_.back();
   free_.pop_back();
   names_[slot] = name;
-  pool_.state[slot] = lane_state::kPropagate;
-  put(photon.position, pool_.position, slot);
-  put(photon.ray.direction, pool_.direction, slot);
-  put(photon.ray.polarisation, pool_.polarisation, slot);
-  put(scene_.regions[photon.region].centre, pool_.centre, slot);
-  pool_.path_mm[slot] = photon.path_mm;
-  pool_.time_ns[slot] = photon.time_ns;
-  pool_.depth_left[slot] = photon.optical_depth;
-  pool_.interactions[slot] = photon.interactions;
-  pool_.segments[slot] = 0.0;
-  pool_.index[slot] = photon.optics.index;
-  pool_.group_index[slot] = photon.optics.group_index;
-  pool_.attenuation_per_mm[slot] = photon.optics.absorption_per_mm + photon.optics.scattering_per_mm;
-  pool_.plane[slot] = 0.0;
-  pool_.side[slot] = 1.0;
-  pool_.region[slot] = lane_scene_.region_of(photon, slot);
-  give_numbers(slot, rng);
+  pool_.in_state[static_cast<std::size_t>(lane_state::kPropagate)] |= std::uint64_t{1} << slot;
+  LanePhoton& entered = pool_.photons[slot];
+  copy(photon.position, entered.position);
+  copy(photon.ray.direction, entered.direction);
+  copy(photon.ray.polarisation, entered.polarisation);
+  copy(scene_.regions[photon.region].centre, entered.centre);
+  entered.path_mm = photon.path_mm;
+  entered.time_ns = photon.time_ns;
+  entered.depth_left = photon.optical_depth;
+  entered.interactions = photon.interactions;
+  entered.segments = 0.0;
+  entered.index = photon.optics.index;
+  entered.group_index = photon.optics.group_index;
+  entered.attenuation_per_mm = photon.optics.absorption_per_mm + photon.optics.scattering_per_mm;
+  entered.plane = 0.0;
+  entered.side = 1.0;
+  entered.region = lane_scene_.region_of(photon, slot);
+  give_numbers(rng, entered);
 }
 
 const std::vector<SurfaceLanes::Left>& SurfaceLanes::run() {
   run_(pool_);
   left_.clear();
-  for (std::uint32_t slot = 0; slot < LanePool::kPhotons; ++slot)
-    if (pool_.state[slot] >= lane_state::kFirstWaiting)
-      left_.push_back({names_[slot], slot, pool_.state[slot]});
+  for (auto state = static_cast<std::size_t>(lane_state::kFirstWaiting); state < lane_state::kCount;
+       ++state) {
+    for (std::uint64_t those = std::exchange(pool_.in_state[state], 0); those != 0; those &= those - 1) {
+      const auto slot = static_cast<std::uint32_t>(std::countr_zero(those));
+      left_.push_back({names_[slot], slot, static_cast<double>(state),
+                       static_cast<std::uint32_t>(pool_.photons[slot].segments)});
+    }
+  }
   return left_;
 }
 
 Step SurfaceLanes::finish(const Left& left, source::Photon& photon, core::Rng& rng) {
-  const std::size_t slot = left.slot;
-  photon.position = vec(pool_.position, slot);
-  photon.ray.direction = vec(pool_.direction, slot);
-  photon.ray.polarisation = vec(pool_.polarisation, slot);
-  photon.path_mm = pool_.path_mm[slot];
-  photon.time_ns = pool_.time_ns[slot];
-  photon.optical_depth = pool_.depth_left[slot];
-  photon.interactions = static_cast<std::uint32_t>(pool_.interactions[slot]);
-  take_numbers(slot, rng);
-  pool_.state[slot] = lane_state::kEmpty;
+  const LanePhoton& from = pool_.photons[left.slot];
+  photon.position = vec(from.position);
+  photon.ray.direction = vec(from.direction);
+  photon.ray.polarisation = vec(from.polarisation);
+  photon.path_mm = from.path_mm;
+  photon.time_ns = from.time_ns;
+  photon.optical_depth = from.depth_left;
+  photon.interactions = static_cast<std::uint32_t>(from.interactions);
+  take_numbers(from, rng);
   free_.push_back(left.slot);
-  const auto segments = static_cast<std::uint32_t>(pool_.segments[slot]);
-  Step taken = rest_of_step(left, photon, rng);
-  taken.segments += segments;
-  return taken;
-}
-
-Step SurfaceLanes::rest_of_step(const Left& left, source::Photon& photon, core::Rng& rng) const {
-  if (left.waiting_as == lane_state::kUnclear) return step(scene_, photon, rng, limits_);
-  Step taken = step_at_end(left, photon, rng);
-  taken.segments = 0;  // counted by the lanes
-  return taken;
+  return left.waiting_as == lane_state::kUnclear ? step(scene_, photon, rng, limits_)
+                                                 : step_at_end(left, photon, rng);
 }
 
 Step SurfaceLanes::step_at_end(const Left& left, source::Photon& photon, core::Rng& rng) const {
@@ -96,12 +95,11 @@ Step SurfaceLanes::step_at_end(const Left& left, source::Photon& photon, core::R
     propagation.end = PropagationEnd::bulk;
     return end_of_step(scene_, propagation, photon, rng, nullptr);
   }
-  Step taken;
-  taken.event = core::StepEvent::reflected;
-  if (left.waiting_as == lane_state::kCut) return taken;
+  if (left.waiting_as == lane_state::kCut) return reflected_in_lanes();
   const scene::Region& region = scene_.regions[photon.region];
-  const BoundaryPlace at{lane_scene_.triangle(region, static_cast<std::size_t>(pool_.plane[left.slot])),
-                         pool_.cos_before[left.slot]};
+  const BoundaryPlace at{
+      lane_scene_.triangle(region, static_cast<std::size_t>(pool_.photons[left.slot].plane)),
+      pool_.photons[left.slot].cos_before};
   if (left.waiting_as == lane_state::kCrossed) return cross_boundary(scene_, at, photon);
   if (left.waiting_as == lane_state::kAbsorbed) {
     const scene::BoundaryLink& link = scene_.link(region, at.triangle);
@@ -113,30 +111,21 @@ Step SurfaceLanes::step_at_end(const Left& left, source::Photon& photon, core::R
   return end_of_step(scene_, propagation, photon, rng, nullptr);
 }
 
-/// Puts the photon's random stream into the pool.
-void SurfaceLanes::give_numbers(std::size_t slot, const core::Rng& rng) {
-  const core::Rng::State stream = rng.state();
-  pool_.drawn[slot] = 4 * stream.counter[0] + static_cast<std::uint64_t>(stream.used) - core::Rng::kDrawn;
-  for (std::size_t i = 0; i < 4; ++i) pool_.counter[i][slot] = stream.counter[i];
-  for (std::size_t i = 0; i < 2; ++i) pool_.key[i][slot] = stream.key[i];
-  std::uint64_t* const numbers = pool_.numbers[slot];
-  for (std::size_t block = static_cast<std::size_t>(stream.used) / 4; block < 2; ++block) {
-    const std::size_t first = 4 * (stream.counter[0] + block - 2) % LanePool::kNumbers;
-    for (std::size_t i = 0; i < 4; ++i) numbers[first + i] = stream.drawn[4 * block + i];
+void SurfaceLanes::give_numbers(const core::Rng& rng, LanePhoton& to) {
+  to.drawn = rng.position();
+  to.next_block = rng.counter()[0];
+  for (std::size_t i = 0; i < 3; ++i) to.counter[i] = rng.counter()[i + 1];
+  for (std::size_t i = 0; i < 2; ++i) to.key[i] = rng.key()[i];
+  for (std::size_t block = (core::Rng::kDrawn - rng.ahead().size()) / 4; block < 2; ++block) {
+    const std::size_t first = 4 * (to.next_block + block - 2) % LanePhoton::kNumbers;
+    for (std::size_t i = 0; i < 4; ++i) to.numbers[first + i] = rng.drawn()[4 * block + i];
     if (first > 0) continue;
-    for (std::size_t i = 0; i < 4; ++i) numbers[LanePool::kNumbers + i] = stream.drawn[4 * block + i];
+    for (std::size_t i = 0; i < 4; ++i) to.numbers[LanePhoton::kNumbers + i] = rng.drawn()[4 * block + i];
   }
 }
 
-/// Sets the photon's random stream to where the pool has drawn up to.
-void SurfaceLanes::take_numbers(std::size_t slot, core::Rng& rng) const {
-  core::Rng::State stream = rng.state();
-  const std::uint64_t drawn = pool_.drawn[slot], in_block = drawn % 4;
-  stream.counter[0] = (drawn + 3) / 4;
-  stream.used = static_cast<int>(in_block == 0 ? 8 : 4 + in_block);  // of the second block
-  const std::size_t first = (drawn - in_block) % LanePool::kNumbers;
-  for (std::size_t i = 0; i < 4; ++i) stream.drawn[4 + i] = pool_.numbers[slot][first + i];
-  rng.go_on_from(stream);
+void SurfaceLanes::take_numbers(const LanePhoton& from, core::Rng& rng) {
+  rng.go_on_at(from.drawn, from.numbers + from.drawn / 4 * 4 % LanePhoton::kNumbers);
 }
 
 }  // namespace scintray::transport

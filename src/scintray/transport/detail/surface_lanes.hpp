@@ -95,19 +95,20 @@ class SurfaceLanes {
   /// A photon that left the lanes.
   struct Left {
     std::uint32_t name = 0, slot = 0;
-    double waiting_as = 0.0;  ///< lane_state
+    double waiting_as = 0.0;     ///< lane_state
+    std::uint32_t segments = 0;  ///< in the lanes, which its step does not count
   };
   /// Moves the photons until some leave. Their slots remain taken until finish().
   /// @return the photons that left; valid until the next call
   const std::vector<Left>& run();
   /// Sets photon and stream to the state at which the photon left the lanes, and completes its step.
-  /// @return the step, with the segments in the lanes too
   Step finish(const Left& left, source::Photon& photon, core::Rng& rng);
 
  private:
-  void give_numbers(std::size_t slot, const core::Rng& rng);
-  void take_numbers(std::size_t slot, core::Rng& rng) const;
-  Step rest_of_step(const Left& left, source::Photon& photon, core::Rng& rng) const;
+  /// Puts a photon's random stream into the pool.
+  static void give_numbers(const core::Rng& rng, LanePhoton& to);
+  /// Sets a random stream to where the pool has drawn up to.
+  static void take_numbers(const LanePhoton& from, core::Rng& rng);
   Step step_at_end(const Left& left, source::Photon& photon, core::Rng& rng) const;
 
   const scene::Scene& scene_;

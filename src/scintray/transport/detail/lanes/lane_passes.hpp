@@ -1,10 +1,10 @@
 #pragma once
 /// The kernel of lane_pool.hpp for one instruction set. Included by one file for each.
 ///
-/// A pass carries each photon of one vector from its state (lane_state) as far as the order of the
-/// stages allows: propagation to the next plane, microsurface, reflector, polarisation. A stage without
-/// photons is skipped; photons that are not in it are masked. Time is proportional to instructions, so the
-/// rejection sampling of facets is repeated on its own.
+/// Photons are regrouped by what they reach: a pass takes photons of one state, that of most in the pool,
+/// into the lanes and carries them through this stage and those that follow (lane_state), as long as most
+/// lanes take part; then they return to the pool. Photons that are not in a stage are masked. Time is
+/// proportional to instructions, so the rejection sampling of facets is repeated on its own.
 
 #include "scintray/core/sampling_laws.hpp"
 #include "scintray/optics/facet_laws.hpp"
@@ -19,105 +19,154 @@ namespace {
 template <typename Real, LaneDraws kDraws>
 class LanePasses : LanePhotons<Real, kDraws> {
   using Photons = LanePhotons<Real, kDraws>;
-  using Photons::at_;
+  using Photons::attenuation_per_mm_;
+  using Photons::centre_;
   using Photons::choose;
+  using Photons::cos_before_;
   using Photons::count_drawn;
+  using Photons::depth_left_;
   using Photons::draw;
+  using Photons::group_index_;
+  using Photons::index_;
+  using Photons::interactions_;
   using Photons::kWidth;
   using Photons::load;
+  using Photons::next_;
   using Photons::next_number;
   using Photons::next_numbers;
+  using Photons::number_of_lanes;
   using Photons::one_if;
+  using Photons::path_mm_;
+  using Photons::photon_;
+  using Photons::plane_;
   using Photons::pool_;
+  using Photons::position_;
+  using Photons::put_back;
+  using Photons::segments_;
   using Photons::store;
+  using Photons::take;
+  using Photons::take_numbers;
+  using Photons::take_places;
+  using Photons::time_ns_;
   using typename Photons::Bits;
+  using typename Photons::Light;
   using typename Photons::Mask;
+  using typename Photons::Moving;
   using typename Photons::Random;
   using typename Photons::Vector;
-  using Light = optics::LightRay<Real>;
   /// Facets are redrawn until at most this number of lanes lacks one; those wait for the next pass.
   static constexpr int kFewLanes = static_cast<int>(kWidth / 4);
-  /// Photons are propagated on while at least this number of lanes is between total reflections, and wait at
-  /// a reflector for this number.
-  static constexpr int kManyLanes = static_cast<int>(kWidth / 2);
+  /// Photons go on to their next stage when it has at least this number of lanes; else they return to the
+  /// pool.
+  static constexpr int kManyLanes = static_cast<int>(kWidth) * 3 / 4;
+  /// The scalar code is called when as many photons wait for it: handing over each alone would take longer.
+  static constexpr int kManyWait = 8;
 
  public:
   explicit LanePasses(LanePool& pool) : Photons(pool) {}
 
   void run() {
-    for (bool some_wait = false; !some_wait;)
-      for (at_ = 0; at_ < LanePool::kPhotons; at_ += kWidth) some_wait = pass() || some_wait;
+    for (;;) {
+      int most = 0;
+      std::size_t state = 0;
+      for (std::size_t i = kFirstStage; i < kEndOfStages; ++i) {
+        const int count = __builtin_popcountll(pool_.in_state[i]);
+        state = count > most ? i : state;
+        most = count > most ? count : most;
+      }
+      const int waiting = number_waiting();
+      if (waiting >= kManyWait || (waiting > 0 && most < static_cast<int>(kWidth))) return;
+      pass(state);
+    }
   }
 
  private:
-  static int number_of_lanes(const Mask& mask) { return __builtin_popcount(lanes_of(mask)); }
+  // States of photons between passes.
+  static constexpr auto kFirstStage = static_cast<std::size_t>(lane_state::kPropagate);
+  static constexpr auto kEndOfStages = static_cast<std::size_t>(lane_state::kReflected);
 
-  /// The state changed by the stages, and the plane that a photon is at.
-  struct Now {
-    Real state, side;
-    Light light;
+  int number_waiting() const {
+    std::uint64_t waiting = 0;
+    for (auto i = static_cast<std::size_t>(lane_state::kFirstWaiting); i < lane_state::kCount; ++i)
+      waiting |= pool_.in_state[i];
+    return __builtin_popcountll(waiting);
+  }
+
+  /// The plane that a photon is at.
+  struct Now : Moving {
     Vector normal;  ///< of the plane, out of the region
     Real kind, index_behind, least_sin2, counted, reflector;
     const double* face[kWidth];  ///< LaneFace
   };
 
-  /// One pass of the photons at `at_`; true when one of them then waits for the scalar code.
-  [[gnu::flatten]] bool pass() {
+  /// Carries photons that are in a state through this stage and those that follow.
+  [[gnu::flatten]] void pass(std::size_t state) {
     Now now;
-    now.state = load(pool_.state);
-    const Mask begins =
-        (now.state > Real(lane_state::kEmpty)) & (now.state < Real(lane_state::kFirstWaiting));
-    if (!any(begins)) return any(now.state >= Real(lane_state::kFirstWaiting));
-    now.light = {load(pool_.direction), load(pool_.polarisation)};
-    now.side = load(pool_.side);
-    const auto in = [&now](double state) { return now.state == Real(state); };
-    Mask here = in(lane_state::kPropagate);
-    if (any(here)) {
-      // Between total reflections no random number is needed: photons are propagated until so many are at a
-      // surface that the stages there are worth their time.
-      do {
+    take(state, now);
+    int needed = 1;  // number of lanes for a stage, of which the first has fewer only where the pool has
+    const auto is_time = [&needed](const Mask& here) {
+      if (number_of_lanes(here) < needed) return false;
+      needed = kManyLanes;
+      return true;
+    };
+    bool has_moved = false, at_surface = false;
+    for (;;) {
+      if (const Mask here = now.state == Real(lane_state::kPropagate); is_time(here)) {
+        if (!has_moved) take_places();
+        has_moved = true;
         propagate(now, here);
-        here = in(lane_state::kPropagate);
-      } while (number_of_lanes(here) >= kManyLanes);
-    } else {
-      load_faces(now);
+        continue;
+      }
+      if (!at_surface) {
+        const Mask there =
+            (now.state > Real(lane_state::kPropagate)) & (now.state < Real(lane_state::kFirstWaiting));
+        if (number_of_lanes(there) < needed) break;
+        at_surface = true;
+        if (!has_moved) load_faces(now);
+        take_numbers();
+      }
+      if (!interact(now, is_time)) break;
     }
-    interact(now);
-    store(pool_.state, now.state);
-    store(pool_.side, now.side);
-    store(pool_.direction, now.light.direction);
-    store(pool_.polarisation, now.light.polarisation);
-    return any(now.state >= Real(lane_state::kFirstWaiting));
+    put_back(now, has_moved, at_surface);
   }
 
-  /// The stages at a surface.
-  void interact(Now& now) {
-    const auto in = [&now](double state) { return now.state == Real(state); };
+  /// The stages at a surface; false when none is passed.
+  template <typename IsTime>
+  bool interact(Now& now, const IsTime& is_time) {
+    const auto in = [&now](double of) { return now.state == Real(of); };
+    bool some = false;
     const Mask smooth = in(lane_state::kSmooth), facets = in(lane_state::kFacets);
-    if (any(smooth | facets)) pass_microsurface(now, smooth, facets);
-    if (const Mask here = in(lane_state::kTable); any(here)) interact_with_table(now, here);
-    // These wait until they are many, while others have a way to go.
-    const int on_their_way = number_of_lanes(in(lane_state::kPropagate) | in(lane_state::kReflected));
-    const auto is_time = [on_their_way](const Mask& here, int many) {
-      return any(here) && (number_of_lanes(here) >= many || on_their_way < kManyLanes);
-    };
-    if (const Mask here = in(lane_state::kReflector); is_time(here, kManyLanes))
+    if (is_time(smooth | facets)) {
+      pass_microsurface(now, smooth, facets);
+      some = true;
+    }
+    if (const Mask here = in(lane_state::kTable); is_time(here)) {
+      interact_with_table(now, here);
+      some = true;
+    }
+    if (const Mask here = in(lane_state::kReflector); is_time(here)) {
       reflect_at_reflector(now, here);
-    if (const Mask here = in(lane_state::kPolarise); is_time(here, kFewLanes)) polarise(now, here);
+      some = true;
+    }
+    if (const Mask here = in(lane_state::kPolarise); is_time(here)) {
+      polarise(now, here);
+      some = true;
+    }
     if (const Mask here = in(lane_state::kReflected); any(here)) {
-      const Mask within = (load(pool_.interactions) < Real(pool_.most_interactions)) &
-                          (load(pool_.time_ns) <= Real(pool_.most_time_ns));
+      const Mask within = (load(interactions_) < Real(pool_.most_interactions)) &
+                          (load(time_ns_) <= Real(pool_.most_time_ns));
       now.state =
           select(here, select(within, Real(lane_state::kPropagate), Real(lane_state::kCut)), now.state);
     }
+    return some;
   }
 
   // Planes and faces.
 
   void load_faces(Now& now) const {
     for (std::size_t lane = 0; lane < kWidth; ++lane)
-      now.face[lane] = reinterpret_cast<const double*>(pool_.region[at_ + lane].faces +
-                                                       static_cast<std::size_t>(pool_.plane[at_ + lane]));
+      now.face[lane] = reinterpret_cast<const double*>(photon_[lane]->region.faces +
+                                                       static_cast<std::size_t>(plane_[lane]));
     const LaneFours<Real> first = face_numbers(now, 0), second = face_numbers(now, 1);
     now.normal = {first.of[0], first.of[1], first.of[2]};
     now.kind = first.of[3];
@@ -137,16 +186,17 @@ class LanePasses : LanePhotons<Real, kDraws> {
 
   LaneAhead<Real> nearest_plane(const Vector& local, const Vector& direction) const {
     LaneAhead<Real> nearest;
-    const LaneRegion* const regions = pool_.region + at_;
+    const LaneRegion& one = photon_[0]->region;
     bool same = true;
-    std::size_t count = regions[0].count;
+    std::size_t count = one.count;
     for (std::size_t lane = 1; lane < kWidth; ++lane) {
-      same = same && regions[lane].planes == regions[0].planes;
-      count = regions[lane].count > count ? regions[lane].count : count;
+      const LaneRegion& region = photon_[lane]->region;
+      same = same && region.planes == one.planes;
+      count = region.count > count ? region.count : count;
     }
     if (same) {
       for (std::size_t i = 0; i < count; ++i) {
-        const PlanePair& planes = regions[0].planes[i];
+        const PlanePair& planes = one.planes[i];
         nearest.take({Real(planes.normal[0]), Real(planes.normal[1]), Real(planes.normal[2])},
                      Real(planes.first_mm), Real(planes.second_mm), local, direction,
                      2.0 * static_cast<double>(i));
@@ -156,7 +206,7 @@ class LanePasses : LanePhotons<Real, kDraws> {
     for (std::size_t i = 0; i < count; ++i) {
       const double *first[kWidth], *second[kWidth];
       for (std::size_t lane = 0; lane < kWidth; ++lane) {
-        const LaneRegion& region = regions[lane];  // the last planes again where there are fewer
+        const LaneRegion& region = photon_[lane]->region;  // the last planes again where there are fewer
         const PlanePair& planes = region.planes[i < region.count ? i : region.count - 1];
         first[lane] = planes.normal;
         second[lane] = &planes.second_mm;
@@ -174,28 +224,28 @@ class LanePasses : LanePhotons<Real, kDraws> {
 
   /// To the next plane, and through a total reflection there.
   void propagate(Now& now, const Mask& here) {
-    const Vector position = load(pool_.position), direction = now.light.direction;
-    const LaneAhead<Real> ahead = nearest_plane(position - load(pool_.centre), direction);
-    store(pool_.plane, select(here, ahead.plane, load(pool_.plane)));
+    const Vector position = load(position_), direction = now.light.direction;
+    const LaneAhead<Real> ahead = nearest_plane(position - load(centre_), direction);
+    store(plane_, select(here, ahead.plane, load(plane_)));
     load_faces(now);
 
-    const Real zero(0.0), one(1.0);
+    const Real zero(0.0);
     const Real distance = select(ahead.distance_mm < zero, zero, ahead.distance_mm);
-    const Real depth = load(pool_.attenuation_per_mm) * distance, depth_left = load(pool_.depth_left);
+    const Real depth = load(attenuation_per_mm_) * distance, depth_left = load(depth_left_);
     const Mask bulk = depth > depth_left, unclear = now.kind == Real(lane_state::kUnclear);
     const Mask moves = here & !(bulk | unclear);
-    const Real path = load(pool_.path_mm), time = load(pool_.time_ns);
-    const Real there_time = time + time_along(distance, load(pool_.group_index));
-    store(pool_.position, select(moves, position + distance * direction, position));
-    store(pool_.path_mm, select(moves, path + distance, path));
-    store(pool_.time_ns, select(moves, there_time, time));
-    store(pool_.depth_left, select(moves, depth_left - depth, depth_left));
-    store(pool_.segments, load(pool_.segments) + one_if(here & (bulk | !unclear)));
-    const Real interactions = load(pool_.interactions) + select(moves, now.counted, zero);
-    store(pool_.interactions, interactions);
+    const Real path = load(path_mm_), time = load(time_ns_);
+    const Real there_time = time + time_along(distance, load(group_index_));
+    store(position_, select(moves, position + distance * direction, position));
+    store(path_mm_, select(moves, path + distance, path));
+    store(time_ns_, select(moves, there_time, time));
+    store(depth_left_, select(moves, depth_left - depth, depth_left));
+    store(segments_, load(segments_) + one_if(here & (bulk | !unclear)));
+    const Real interactions = load(interactions_) + select(moves, now.counted, zero);
+    store(interactions_, interactions);
 
     const Real cosine = dot(direction, now.normal);
-    store(pool_.cos_before, select(here, magnitude(cosine), load(pool_.cos_before)));
+    store(cos_before_, select(here, magnitude(cosine), load(cos_before_)));
     const Mask total = totally_reflected(cosine, now.least_sin2);
     now.light = select(moves & total, reflected(now.light, now.normal), now.light);
     const Mask within =
@@ -204,7 +254,6 @@ class LanePasses : LanePhotons<Real, kDraws> {
     const Real stays = select(bulk, Real(lane_state::kBulk), Real(lane_state::kUnclear));
     const Real moved = select(total, after_total, now.kind);
     now.state = select(here, select(moves, moved, stays), now.state);
-    now.side = select(here, one, now.side);
   }
 
   /// Smooth surfaces, and facets, for which one is drawn first; where none is accepted the photon stays.
@@ -232,7 +281,7 @@ class LanePasses : LanePhotons<Real, kDraws> {
     draw(ready, 1.0);
     const Bits for_fresnel = next_number();
     const Mask inside = now.side > Real(0.0);
-    const Real index = load(pool_.index);
+    const Real index = load(index_);
     const Refracted after = refract(now.light, m, select(inside, index, now.index_behind),
                                     select(inside, now.index_behind, index), for_fresnel);
     now.light = select(ready, after.light, now.light);
@@ -389,7 +438,7 @@ class LanePasses : LanePhotons<Real, kDraws> {
     const Real through =
         select(now.reflector > zero, Real(lane_state::kReflector), Real(lane_state::kCrossed));
     const Real next = select(after > zero, Real(lane_state::kReflected), through);
-    store(pool_.next, select(leaves, next, load(pool_.next)));
+    store(next_, select(leaves, next, load(next_)));
     now.state = select(leaves, select(unpolarised, next, Real(lane_state::kPolarise)), now.state);
     now.state = select(absorbed, Real(lane_state::kAbsorbed), now.state);
     const Real drawn = select(absorbed, one, Real(3.0)) + select(several, one, zero);
@@ -413,7 +462,7 @@ class LanePasses : LanePhotons<Real, kDraws> {
     now.light = select(kept, select(specular, mirrored, Light{diffuse, now.light.polarisation}), now.light);
     const Real back =
         select(now.kind == Real(lane_state::kReflector), Real(lane_state::kReflected), now.kind);
-    store(pool_.next, select(here, back, load(pool_.next)));
+    store(next_, select(here, back, load(next_)));
     const Real next = select(specular | unpolarised, back, Real(lane_state::kPolarise));
     now.state = select(here, select(absorbed, Real(lane_state::kAbsorbed), next), now.state);
     const Real drawn = one + one_if(mixed) + select(specular, zero, Real(2.0));
@@ -429,7 +478,7 @@ class LanePasses : LanePhotons<Real, kDraws> {
     const Mask done = here & point.accepted;
     now.light.polarisation =
         select(done, core::across_at<Real>(now.light.direction, point), now.light.polarisation);
-    now.state = select(done, load(pool_.next), now.state);
+    now.state = select(done, load(next_), now.state);
     count_drawn(select(here, select(first, Real(1.0), Real(2.0)), Real(0.0)));
   }
 };

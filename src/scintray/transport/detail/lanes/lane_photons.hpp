@@ -1,8 +1,10 @@
 #pragma once
-/// The photons of the pool (lane_pool.hpp) that are in the lanes of one vector, and their random numbers.
+/// The photons of the pool (lane_pool.hpp) that are in the lanes of one vector, and their random numbers:
+/// taken from the pool and put back by rows of four numbers.
 
 #include "scintray/core/lanes/lane_fours.hpp"
 #include "scintray/core/philox_laws.hpp"
+#include "scintray/optics/fresnel_laws.hpp"
 #include "scintray/transport/detail/lanes/lane_pool.hpp"
 
 namespace scintray::transport {
@@ -22,33 +24,118 @@ class LanePhotons {
   using Bits = typename Real::Bits;
   using Vector = core::Triple<Real>;
   static constexpr std::size_t kWidth = Real::kWidth;
-  static_assert(LanePool::kPhotons % kWidth == 0);
 
   explicit LanePhotons(LanePool& pool) : pool_(pool) {}
 
-  Real load(const LanePool::Numbers& numbers) const { return Real::load(numbers + at_); }
-  Vector load(const LanePool::Numbers (&numbers)[3]) const {
+  using Numbers = double[kWidth];
+  using Counts = std::uint64_t[kWidth];
+  static Real load(const Numbers& numbers) { return Real::load(numbers); }
+  static Vector load(const Numbers (&numbers)[3]) {
     return {load(numbers[0]), load(numbers[1]), load(numbers[2])};
   }
-  Bits load(const LanePool::Counts& counts) const { return Bits::load(counts + at_); }
-  void store(LanePool::Numbers& to, const Real& value) const { value.store(to + at_); }
-  void store(LanePool::Numbers (&to)[3], const Vector& value) const {
+  static Bits load(const Counts& counts) { return Bits::load(counts); }
+  static void store(Numbers& to, const Real& value) { value.store(to); }
+  static void store(Numbers (&to)[3], const Vector& value) {
     store(to[0], value.x), store(to[1], value.y), store(to[2], value.z);
   }
-  void store(LanePool::Counts& to, const Bits& value) const { value.store(to + at_); }
+  static void store(Counts& to, const Bits& value) { value.store(to); }
 
   static Real one_if(const Mask& condition) { return select(condition, Real(1.0), Real(0.0)); }
   static Bits choose(const Mask& condition, const Bits& yes, const Bits& no) {
     return bits_of(select(condition, number_of(yes), number_of(no)));
   }
 
+  static int number_of_lanes(const Mask& mask) { return __builtin_popcount(lanes_of(mask)); }
+
+  using Light = optics::LightRay<Real>;
+  /// What almost every stage changes.
+  struct Moving {
+    Real state;  ///< lane_state; kEmpty in lanes without a photon
+    Real side;
+    Light light;
+  };
+
+  /// Takes photons of a state out of the pool into the lanes, as many as there are lanes: all but their
+  /// places and random numbers.
+  void take(std::size_t state, Moving& moving) {
+    std::uint64_t these = pool_.in_state[state];
+    const int count = __builtin_popcountll(these);
+    for (std::size_t lane = 0; lane < kWidth; ++lane) {
+      place_[lane] = these != 0 ? static_cast<std::uint32_t>(__builtin_ctzll(these)) : LanePool::kPhotons;
+      these &= these - 1;
+      photon_[lane] = &pool_.photons[place_[lane]];
+    }
+    pool_.in_state[state] = these;
+    const Mask taken = Mask::of(count < static_cast<int>(kWidth) ? (1U << count) - 1 : (1U << kWidth) - 1);
+    moving.state = select(taken, Real(static_cast<double>(state)), Real(lane_state::kEmpty));
+    const Row direction = row(offsetof(LanePhoton, direction)), optics = row(offsetof(LanePhoton, index));
+    const Row polarisation = row(offsetof(LanePhoton, polarisation)),
+              counts = row(offsetof(LanePhoton, interactions));
+    moving.light = {{direction.of[0], direction.of[1], direction.of[2]},
+                    {polarisation.of[0], polarisation.of[1], polarisation.of[2]}};
+    moving.side = optics.of[2];
+    store(time_ns_, direction.of[3]);
+    store(depth_left_, polarisation.of[3]);
+    store(interactions_, counts.of[0]);
+    store(segments_, counts.of[1]);
+    store(plane_, counts.of[2]);
+    store(cos_before_, counts.of[3]);
+    store(index_, optics.of[0]);
+    store(group_index_, optics.of[1]);
+    store(next_, optics.of[3]);
+  }
+  void take_places() {
+    const Row position = row(offsetof(LanePhoton, position)), centre = row(offsetof(LanePhoton, centre));
+    store(position_, {position.of[0], position.of[1], position.of[2]});
+    store(path_mm_, position.of[3]);
+    store(centre_, {centre.of[0], centre.of[1], centre.of[2]});
+    store(attenuation_per_mm_, centre.of[3]);
+  }
+  void take_numbers() {
+    const Row stream = row(offsetof(LanePhoton, drawn));
+    store(drawn_, bits_of(stream.of[0]));
+    store(next_block_, bits_of(stream.of[1]));
+    store(key_[0], bits_of(stream.of[2]));
+    store(key_[1], bits_of(stream.of[3]));
+  }
+  /// Puts the photons back into the pool.
+  /// @param has_moved     take_places() was called
+  /// @param at_surface  take_numbers() was
+  void put_back(const Moving& moving, bool has_moved, bool at_surface) {
+    const Vector direction = moving.light.direction, polarisation = moving.light.polarisation;
+    put_row(offsetof(LanePhoton, direction), {{direction.x, direction.y, direction.z, load(time_ns_)}});
+    put_row(offsetof(LanePhoton, polarisation),
+            {{polarisation.x, polarisation.y, polarisation.z, load(depth_left_)}});
+    if (has_moved) {
+      const Vector position = load(position_);
+      put_row(offsetof(LanePhoton, position), {{position.x, position.y, position.z, load(path_mm_)}});
+      put_row(offsetof(LanePhoton, interactions),
+              {{load(interactions_), load(segments_), load(plane_), load(cos_before_)}});
+    }
+    if (at_surface) {
+      put_row(offsetof(LanePhoton, index), {{load(index_), load(group_index_), moving.side, load(next_)}});
+      put_row(offsetof(LanePhoton, drawn), {{number_of(load(drawn_)), number_of(load(next_block_)),
+                                             number_of(load(key_[0])), number_of(load(key_[1]))}});
+    }
+    for (std::size_t state = 1; state < static_cast<std::size_t>(lane_state::kReflected); ++state)
+      pool_.in_state[state] |= places_of(moving.state == Real(static_cast<double>(state)));
+    const Mask waiting = moving.state >= Real(lane_state::kFirstWaiting);
+    if (!any(waiting)) return;
+    alignas(64) Numbers states;
+    store(states, moving.state);
+    for (unsigned lanes = lanes_of(waiting); lanes != 0; lanes &= lanes - 1) {
+      const auto lane = static_cast<std::size_t>(__builtin_ctz(lanes));
+      pool_.in_state[static_cast<std::size_t>(states[lane])] |= std::uint64_t{1} << place_[lane];
+    }
+  }
+
   /// Draws a block of random numbers for each photon of `draws` with fewer than `needed`, at most four, left.
   void draw(const Mask& draws, double needed) {
-    const Real ready = value_of((load(pool_.counter[0]) << 2) - load(pool_.drawn));
+    const Real ready = value_of((load(next_block_) << 2) - load(drawn_));
     const Mask lack = draws & (ready < Real(needed));
     if (!any(lack)) return;
     if constexpr (kDraws == LaneDraws::in_lanes)
-      draw_in_lanes(ready <= Real(static_cast<double>(LanePool::kNumbers - 4)));
+      draw_in_lanes(ready <= Real(static_cast<double>(LanePhoton::kNumbers - 4)));
     else
       draw_one_by_one(lanes_of(lack));
   }
@@ -71,12 +158,41 @@ class LanePhotons {
     return bits_of(ones);
   }
   /// Counts numbers as drawn, whole ones from 0 to 7.
-  void count_drawn(const Real& numbers) { store(pool_.drawn, load(pool_.drawn) + whole(numbers)); }
+  void count_drawn(const Real& numbers) { store(drawn_, load(drawn_) + whole(numbers)); }
 
   LanePool& pool_;
-  std::size_t at_ = 0;  ///< the first photon of the vector
+  // Of the photon in each lane, as of LanePhoton.
+  LanePhoton* photon_[kWidth];
+  alignas(64) Numbers position_[3], path_mm_, time_ns_, depth_left_, interactions_, segments_, plane_,
+      cos_before_;
+  alignas(64) Numbers centre_[3], attenuation_per_mm_, index_, group_index_, next_;
 
  private:
+  using Row = LaneFours<Real>;
+  /// Four numbers of each photon.
+  /// @param offset  of the first one in LanePhoton
+  Row row(std::size_t offset) const {
+    const double* at[kWidth];
+    for (std::size_t lane = 0; lane < kWidth; ++lane)
+      at[lane] = reinterpret_cast<const double*>(reinterpret_cast<const char*>(photon_[lane]) + offset);
+    Row numbers;
+    load_fours(at, numbers);
+    return numbers;
+  }
+  void put_row(std::size_t offset, const Row& numbers) const {
+    double* at[kWidth];
+    for (std::size_t lane = 0; lane < kWidth; ++lane)
+      at[lane] = reinterpret_cast<double*>(reinterpret_cast<char*>(photon_[lane]) + offset);
+    store_fours(numbers, at);
+  }
+  /// A bit for each photon of the pool that is in these lanes.
+  std::uint64_t places_of(const Mask& of) const {
+    std::uint64_t places = 0;
+    for (unsigned lanes = lanes_of(of); lanes != 0; lanes &= lanes - 1)
+      places |= std::uint64_t{1} << place_[static_cast<std::size_t>(__builtin_ctz(lanes))];
+    return places;
+  }
+
   struct Places {
     const double* at[kWidth];
   };
@@ -84,8 +200,8 @@ class LanePhotons {
   Places next_places() const {
     Places places;
     for (std::size_t lane = 0; lane < kWidth; ++lane)
-      places.at[lane] = reinterpret_cast<const double*>(pool_.numbers[at_ + lane]) +
-                        pool_.drawn[at_ + lane] % LanePool::kNumbers;
+      places.at[lane] =
+          reinterpret_cast<const double*>(photon_[lane]->numbers) + drawn_[lane] % LanePhoton::kNumbers;
     return places;
   }
   /// A whole number from 0 to 7 as bits.
@@ -94,38 +210,41 @@ class LanePhotons {
   /// @param lanes  a bit for each
   void draw_one_by_one(unsigned lanes) {
     for (; lanes != 0; lanes &= lanes - 1) {
-      const std::size_t slot = at_ + static_cast<std::size_t>(__builtin_ctz(lanes));
-      const std::uint64_t number = pool_.counter[0][slot]++;
+      const auto lane = static_cast<std::size_t>(__builtin_ctz(lanes));
+      LanePhoton& photon = *photon_[lane];
+      const std::uint64_t number = next_block_[lane]++;
       const core::PhiloxBlock<std::uint64_t> block(
-          {number, pool_.counter[1][slot], pool_.counter[2][slot], pool_.counter[3][slot]},
-          {pool_.key[0][slot], pool_.key[1][slot]});
-      std::uint64_t* const numbers = pool_.numbers[slot];
-      const std::size_t first = number * 4 % LanePool::kNumbers;
-      for (std::size_t i = 0; i < 4; ++i) numbers[first + i] = block.words[i];
+          {number, photon.counter[0], photon.counter[1], photon.counter[2]}, {photon.key[0], photon.key[1]});
+      const std::size_t first = number * 4 % LanePhoton::kNumbers;
+      for (std::size_t i = 0; i < 4; ++i) photon.numbers[first + i] = block.words[i];
       if (first > 0) continue;
-      for (std::size_t i = 0; i < 4; ++i) numbers[LanePool::kNumbers + i] = block.words[i];
+      for (std::size_t i = 0; i < 4; ++i) photon.numbers[LanePhoton::kNumbers + i] = block.words[i];
     }
   }
   /// For all photons with room, also those that do not lack numbers.
   void draw_in_lanes(const Mask& room) {
-    const Bits blocks = load(pool_.counter[0]);
+    const Bits blocks = load(next_block_);
+    const Row counter = row(offsetof(LanePhoton, counter));
     const core::PhiloxBlock<Bits> block(
-        {blocks, load(pool_.counter[1]), load(pool_.counter[2]), load(pool_.counter[3])},
-        {load(pool_.key[0]), load(pool_.key[1])});
-    store(pool_.counter[0], blocks + whole(one_if(room)));
+        {blocks, bits_of(counter.of[0]), bits_of(counter.of[1]), bits_of(counter.of[2])},
+        {load(key_[0]), load(key_[1])});
+    store(next_block_, blocks + whole(one_if(room)));
     alignas(64) std::uint64_t number[kWidth];
     blocks.store(number);
     const unsigned lanes = lanes_of(room);
     std::uint64_t *first[kWidth], *second[kWidth], nowhere[4];
     for (std::size_t lane = 0; lane < kWidth; ++lane) {
-      std::uint64_t* const numbers = pool_.numbers[at_ + lane];
-      const std::size_t at = number[lane] * 4 % LanePool::kNumbers;
+      std::uint64_t* const numbers = photon_[lane]->numbers;
+      const std::size_t at = number[lane] * 4 % LanePhoton::kNumbers;
       const bool takes = (lanes >> lane & 1) != 0;
       first[lane] = takes ? numbers + at : nowhere;
-      second[lane] = takes && at == 0 ? numbers + LanePool::kNumbers : nowhere;
+      second[lane] = takes && at == 0 ? numbers + LanePhoton::kNumbers : nowhere;
     }
     store_fours(block.words, first, second);
   }
+
+  std::uint32_t place_[kWidth];  ///< in the pool
+  alignas(64) Counts drawn_, next_block_, key_[2];
 };
 
 }  // namespace

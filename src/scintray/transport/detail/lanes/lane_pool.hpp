@@ -23,7 +23,7 @@ inline constexpr double kFacets = 3.0;     ///< a facet is drawn, then Fresnel's
 inline constexpr double kTable = 4.0;      ///< a surface table
 inline constexpr double kReflector = 5.0;  ///< the reflector behind the microsurface
 inline constexpr double kPolarise = 6.0;   ///< a polarisation is drawn; LanePool::next follows
-inline constexpr double kReflected = 7.0;  ///< back in its region
+inline constexpr double kReflected = 7.0;  ///< back in its region; kPropagate follows at once
 // From here on the photon waits for the scalar code.
 inline constexpr double kFirstWaiting = 16.0;
 inline constexpr double kBulk = 16.0;      ///< an event in the medium; the photon is where its segment began
@@ -32,6 +32,7 @@ inline constexpr double kUnclear = 18.0;   ///< the next plane leads to several 
 inline constexpr double kCrossed = 19.0;   ///< through its surface into the region behind
 inline constexpr double kAbsorbed = 20.0;  ///< by the surface
 inline constexpr double kCut = 21.0;       ///< the limits are reached
+inline constexpr std::size_t kCount = 22;
 }  // namespace lane_state
 
 /// One or two parallel planes around a region, in the region's frame (mm). Number 2 i and 2 i + 1 of its
@@ -82,29 +83,37 @@ struct LaneRegion {
   std::size_t count = 0;            ///< of planes
 };
 
-/// The photons, each at one index of every array.
-struct LanePool {
-  static constexpr std::size_t kPhotons = 32;
-  /// Random numbers of a photon that are not used yet, in whole blocks of four. The first four are repeated
-  /// after the last, so that any four consecutive ones can be loaded.
+/// A photon of the pool. Rows of four numbers are loaded and stored at once.
+struct alignas(64) LanePhoton {
+  /// Random numbers that are not used yet, in whole blocks of four. The first four are repeated after the
+  /// last, so that any four consecutive ones can be loaded.
   static constexpr std::size_t kNumbers = 16;
-  using Numbers = double[kPhotons];
-  using Counts = std::uint64_t[kPhotons];
 
-  alignas(64) Numbers state;
-  alignas(64) Numbers position[3], direction[3], polarisation[3];
-  alignas(64) Numbers path_mm, time_ns, depth_left;
-  alignas(64) Numbers interactions, segments;  ///< whole numbers; segments since the photon was entered
-  alignas(64) Numbers index, group_index, attenuation_per_mm;  ///< of the region
-  alignas(64) Numbers centre[3];                               ///< origin of the region's frame
-  alignas(64) Numbers plane;                                   ///< the last one reached
-  alignas(64) Numbers side;               ///< at a microsurface: 1 in the photon's region, -1 beyond
-  alignas(64) Numbers cos_before;         ///< |cosine| to the normal of the plane, on arrival
-  alignas(64) Numbers next;               ///< state after kPolarise
-  alignas(64) Counts counter[4], key[2];  ///< Philox's; the first counter: of the next block to be drawn
-  alignas(64) Counts drawn;               ///< numbers used
-  alignas(64) std::uint64_t numbers[kPhotons][kNumbers + 4];
-  LaneRegion region[kPhotons];
+  double position[3], path_mm;
+  double direction[3], time_ns;
+  double polarisation[3], depth_left;
+  double interactions, segments;  ///< whole numbers; segments since the photon was entered
+  double plane;                   ///< the last one reached
+  double cos_before;              ///< |cosine| to the normal of the plane, on arrival
+  double centre[3];               ///< origin of the region's frame
+  double attenuation_per_mm;      ///< of the region, as the indices
+  double index, group_index;
+  double side;                       ///< at a microsurface: 1 in the photon's region, -1 beyond
+  double next;                       ///< state after kPolarise
+  std::uint64_t drawn, next_block;   ///< numbers used, and Philox's first counter: the next block to be drawn
+  std::uint64_t key[2], counter[3];  ///< Philox's key, and its other counters
+  std::uint64_t padding;
+  std::uint64_t numbers[kNumbers + 4];
+  LaneRegion region;
+};
+
+/// The photons, and those in each state.
+struct LanePool {
+  static constexpr std::size_t kPhotons = 48;
+  static_assert(kPhotons < 64, "a photon is a bit");
+
+  LanePhoton photons[kPhotons + 1];            ///< the last one stands for none, in lanes that have no photon
+  std::uint64_t in_state[lane_state::kCount];  ///< a bit for each photon
 
   double most_interactions, most_time_ns;  ///< limits as of PropagationLimits
 };

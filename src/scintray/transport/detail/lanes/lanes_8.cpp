@@ -15,7 +15,7 @@ void propagate_lanes_in_body_8(const LaneBody& body, const LaneLimits& limits, L
 }
 
 void run_lanes_8(LanePool& pool) {
-  LanePasses<core::LaneRealPair<xsimd::avx512f>, LaneDraws::in_lanes>(pool).run();
+  LanePasses<core::LaneReal<xsimd::avx512f>, LaneDraws::in_lanes>(pool).run();
 }
 
 }  // namespace scintray::transport
