@@ -63,6 +63,7 @@ class LanePhotons {
     for (std::size_t lane = 0; lane < kWidth; ++lane) {
       place_[lane] = these != 0 ? static_cast<std::uint32_t>(__builtin_ctzll(these)) : LanePool::kPhotons;
       these &= these - 1;
+      bit_[lane] = std::uint64_t{1} << place_[lane];
       photon_[lane] = &pool_.photons[place_[lane]];
     }
     pool_.in_state[state] = these;
@@ -185,11 +186,13 @@ class LanePhotons {
       at[lane] = reinterpret_cast<double*>(reinterpret_cast<char*>(photon_[lane]) + offset);
     store_fours(numbers, at);
   }
-  /// A bit for each photon of the pool that is in these lanes.
-  std::uint64_t places_of(const Mask& of) const {
+  /// A bit for each photon of the pool that is in these lanes. Without a loop over them, whose length would
+  /// be predicted wrongly.
+  std::uint64_t places_of(const Mask& lanes) const {
+    alignas(64) Counts each;
+    store(each, bits_of(select(lanes, number_of(load(bit_)), Real(0.0))));
     std::uint64_t places = 0;
-    for (unsigned lanes = lanes_of(of); lanes != 0; lanes &= lanes - 1)
-      places |= std::uint64_t{1} << place_[static_cast<std::size_t>(__builtin_ctz(lanes))];
+    for (const std::uint64_t bit : each) places |= bit;
     return places;
   }
 
@@ -244,6 +247,7 @@ class LanePhotons {
   }
 
   std::uint32_t place_[kWidth];  ///< in the pool
+  alignas(64) Counts bit_;       ///< for that
   alignas(64) Counts drawn_, next_block_, key_[2];
 };
 
