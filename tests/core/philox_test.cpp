@@ -28,6 +28,27 @@ TEST_CASE("Streams with different addresses differ, equal addresses repeat") {
   CHECK(first != c.bits());
 }
 
+TEST_CASE("A stream goes on at any place, and becomes that of another address") {
+  const Rng begin(1, StreamKind::photon, 2, 3, 4);
+  Rng stream = begin;
+  std::array<std::uint64_t, 24> numbers;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    CHECK(stream.position() == i);
+    numbers[i] = stream.bits();
+  }
+  for (std::uint64_t place = 0; place < 16; ++place) {
+    CAPTURE(place);
+    Rng other(7, StreamKind::event, 8, 9);
+    other.bits();
+    other.restart(1, StreamKind::photon, 2, 3, 4);
+    CHECK(other.position() == 0);
+    other.go_on_at(place, numbers.data() + place / 4 * 4);
+    CHECK(other.position() == place);
+    CHECK(other.ahead().size() == (4 - place % 4) % 4);
+    for (std::uint64_t i = place; i < place + 8; ++i) CHECK(other.bits() == numbers[i]);
+  }
+}
+
 namespace {
 
 using Numbers = std::vector<double>;
