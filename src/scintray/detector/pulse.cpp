@@ -164,14 +164,16 @@ std::vector<double> PulseShape::waveform(std::span<const Avalanche> avalanches, 
   const auto first = static_cast<std::ptrdiff_t>(gate.first), past = static_cast<std::ptrdiff_t>(gate.past);
   // One step beyond the last sample ends the period of that sample.
   const std::ptrdiff_t end = std::max(static_cast<std::ptrdiff_t>(samples), past + 1);
+  bool silent = true;    // nothing is in the stages yet
   double arrived = 0.0;  // charge up to the present sample, the charge held at the gate's start included
   for (std::ptrdiff_t i = -early; i < end; ++i) {
-    step(state);
+    if (!silent) step(state);
     const double now_ns = start_ns + static_cast<double>(i) * period_ns_;
     for (; next != avalanches.end() && next->time_ns <= now_ns; ++next) {
       const State pulse = after(now_ns - next->time_ns);
       for (std::size_t stage = 0; stage < stages; ++stage) state[stage] += next->charge * pulse[stage];
       arrived += next->charge;
+      silent = false;
     }
     if (i == first) arrived = held(state);
     if (i == past) gate.integral_ns = scale_ * (arrived - held(state));

@@ -167,7 +167,7 @@ void LaneScene::set_wavelength(const source::Photon& photon, const std::vector<A
   const double here = photon.optics.index;
   for (const AlikeFaces& set : alike) {
     const scene::Interface& interface = scene_.interfaces[set.link.interface];
-    LaneFace at = faces[set.planes.front()];
+    LaneFace at = faces[set.planes.front()];  // alike but for their normals
     at.index_behind = index_behind(scene_, set.link, photon);
     at.counted = !interface.plain || here != at.index_behind ? 1.0 : 0.0;
     if (interface.plain) at.least_sin2 = critical_sin2(scene_, set.link.smooth_to, photon);
@@ -184,9 +184,15 @@ void LaneScene::set_wavelength(const source::Photon& photon, const std::vector<A
     }
     if (!interface.plain && set.surface.micro == Micro::smooth)
       at.least_sin2 = least_total_sin2(here, at.index_behind);
-    for (const std::uint32_t plane : set.planes) {  // alike but for their normals
-      std::copy_n(faces[plane].normal, 3, at.normal);
-      faces[plane] = at;
+    for (const std::uint32_t plane : set.planes) {
+      LaneFace& face = faces[plane];
+      face.index_behind = at.index_behind;
+      face.least_sin2 = at.least_sin2;
+      face.counted = at.counted;
+      face.reflectance = at.reflectance;
+      if (!set.surface.table) continue;
+      face.table = at.table;
+      face.to_next = at.to_next;
     }
   }
 }
