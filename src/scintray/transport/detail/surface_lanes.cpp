@@ -40,7 +40,7 @@ void SurfaceLanes::enter(std::uint32_t name, const source::Photon& photon, const
   const std::uint32_t slot = free_.back();
   free_.pop_back();
   names_[slot] = name;
-  pool_.in_state[static_cast<std::size_t>(lane_state::kPropagate)] |= std::uint64_t{1} << slot;
+  pool_.in_state[lane_state::kFirstStage] |= std::uint64_t{1} << slot;
   LanePhoton& entered = pool_.photons[slot];
   copy(photon.position, entered.position);
   copy(photon.ray.direction, entered.direction);

@@ -69,7 +69,7 @@ class LanePasses : LanePhotons<Real, kDraws> {
     for (;;) {
       int most = 0;
       std::size_t state = 0;
-      for (std::size_t i = kFirstStage; i < kEndOfStages; ++i) {
+      for (std::size_t i = lane_state::kFirstStage; i < lane_state::kEndOfStages; ++i) {
         const int count = __builtin_popcountll(pool_.in_state[i]);
         state = count > most ? i : state;
         most = count > most ? count : most;
@@ -81,13 +81,9 @@ class LanePasses : LanePhotons<Real, kDraws> {
   }
 
  private:
-  // States of photons between passes.
-  static constexpr auto kFirstStage = static_cast<std::size_t>(lane_state::kPropagate);
-  static constexpr auto kEndOfStages = static_cast<std::size_t>(lane_state::kReflected);
-
   int number_waiting() const {
     std::uint64_t waiting = 0;
-    for (auto i = static_cast<std::size_t>(lane_state::kFirstWaiting); i < lane_state::kCount; ++i)
+    for (std::size_t i = lane_state::kFirstOfWaiting; i < lane_state::kCount; ++i)
       waiting |= pool_.in_state[i];
     return __builtin_popcountll(waiting);
   }

@@ -100,7 +100,7 @@ class LanePhotons {
     store(key_[1], bits_of(stream.of[3]));
   }
   /// Puts the photons back into the pool.
-  /// @param has_moved     take_places() was called
+  /// @param has_moved   take_places() was called
   /// @param at_surface  take_numbers() was
   void put_back(const Moving& moving, bool has_moved, bool at_surface) {
     const Vector direction = moving.light.direction, polarisation = moving.light.polarisation;
@@ -118,7 +118,7 @@ class LanePhotons {
       put_row(offsetof(LanePhoton, drawn), {{number_of(load(drawn_)), number_of(load(next_block_)),
                                              number_of(load(key_[0])), number_of(load(key_[1]))}});
     }
-    for (std::size_t state = 1; state < static_cast<std::size_t>(lane_state::kReflected); ++state)
+    for (std::size_t state = lane_state::kFirstStage; state < lane_state::kEndOfStages; ++state)
       pool_.in_state[state] |= places_of(moving.state == Real(static_cast<double>(state)));
     const Mask waiting = moving.state >= Real(lane_state::kFirstWaiting);
     if (!any(waiting)) return;

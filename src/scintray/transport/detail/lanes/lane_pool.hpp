@@ -32,7 +32,8 @@ inline constexpr double kUnclear = 18.0;   ///< the next plane leads to several 
 inline constexpr double kCrossed = 19.0;   ///< through its surface into the region behind
 inline constexpr double kAbsorbed = 20.0;  ///< by the surface
 inline constexpr double kCut = 21.0;       ///< the limits are reached
-inline constexpr std::size_t kCount = 22;
+// As places in LanePool::in_state: those in which photons are between passes, and those that wait.
+inline constexpr std::size_t kFirstStage = 1, kEndOfStages = 7, kFirstOfWaiting = 16, kCount = 22;
 }  // namespace lane_state
 
 /// One or two parallel planes around a region, in the region's frame (mm). Number 2 i and 2 i + 1 of its
