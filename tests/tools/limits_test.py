@@ -127,6 +127,8 @@ class Limits(unittest.TestCase):
         # A quarter of 200 leaves 50 instructions, less than the 60 outside of the kernels.
         self.assertEqual(report.conclusion(figures(20.0, 40.0)), 'what is not in kernels takes 1.20 of them')
         self.assertEqual(report.conclusion(figures(20.0, 40.0, outside=30.0)), 'kernels in 20 in place of 70')
+        # Half of 200 leaves all 100.
+        self.assertEqual(report.conclusion(figures(30.0, 40.0, factor=2.0)), 'few enough, at fewer a ns than before')
         # 15 are left for kernels, a quarter of whose 90 is in vectors or Philox.
         self.assertEqual(report.conclusion(figures(20.0, 40.0, outside=10.0, factor=8.0)),
                          'vectors and Philox alone take 1.50 of what is left for kernels')

@@ -124,6 +124,8 @@ def conclusion(figures):
     if figures.nanoseconds[COUNTED_LANES] <= required:
         return 'met'
     outside = counts.whole.instructions - counts.kernels.instructions
+    if counts.whole.instructions <= left:
+        return 'few enough, at fewer a ns than before'
     if not has_kernels(counts):
         return f'no kernels; the ray query alone takes {counts.by_kind["ray query"].instructions / left:.2f} of them'
     if outside > left:
