@@ -7,6 +7,7 @@
 #include "scintray/core/error.hpp"
 #include "scintray/core/lane_width.hpp"
 #include "scintray/transport/detail/lane_faces.hpp"
+#include "scintray/transport/detail/photon_numbers.hpp"
 #include "scintray/transport/detail/step_parts.hpp"
 #include "scintray/transport/detail/surface_lanes.hpp"
 
@@ -274,16 +275,7 @@ void Batch::Tracing::set_work(std::uint32_t index, const LaneFaces& faces, LaneW
   double* const least_sin2 = least_sin2_.data() + index * most_faces_;
   if (traveller.angles_of != photon.region || traveller.angles_nm != photon.wavelength_nm)
     set_critical_angles(traveller, faces, least_sin2);
-  copy(photon.position, work.position);
-  copy(photon.ray.direction, work.direction);
-  copy(photon.ray.polarisation, work.polarisation);
-  work.path_mm = photon.path_mm;
-  work.time_ns = photon.time_ns;
-  work.depth_left = photon.optical_depth;
-  work.group_index = photon.optics.group_index;
-  work.attenuation_per_mm = photon.optics.absorption_per_mm + photon.optics.scattering_per_mm;
-  work.interactions = photon.interactions;
-  copy(scene_.regions[photon.region].centre, work.centre);
+  give_photon(scene_, photon, work);
   work.least_sin2 = least_sin2;
   work.left = faces.left_at(photon.on_triangle);
 }
@@ -314,13 +306,7 @@ void Batch::Tracing::set_critical_angles(Traveller& traveller, const LaneFaces& 
 void Batch::Tracing::finish(const LaneWork& work, const LaneFaces& faces, std::uint32_t index) {
   Traveller& traveller = travellers_[index];
   source::Photon& photon = traveller.photon;
-  photon.position = vec(work.position);
-  photon.ray.direction = vec(work.direction);
-  photon.ray.polarisation = vec(work.polarisation);
-  photon.path_mm = work.path_mm;
-  photon.time_ns = work.time_ns;
-  photon.optical_depth = work.depth_left;
-  photon.interactions = static_cast<std::uint32_t>(work.interactions);
+  take_photon(work, photon);
   if (faces.has_quadrics() && work.left != faces.left_at(photon.on_triangle))
     photon.on_triangle = faces.list()[static_cast<std::size_t>(work.left)].triangle;
   traveller.segments += work.segments;

@@ -2,6 +2,8 @@
 
 #include <cstddef>
 
+#include "scintray/transport/detail/photon_numbers.hpp"
+
 namespace scintray::transport {
 
 namespace {

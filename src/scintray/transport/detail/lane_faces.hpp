@@ -2,25 +2,12 @@
 /// The faces around a shape of region, for the kernels of lane_kernel.hpp.
 
 #include <cstdint>
-#include <cstring>
-#include <type_traits>
 #include <vector>
 
 #include "scintray/scene/accelerator.hpp"
 #include "scintray/transport/detail/lanes/lane_kernel.hpp"
 
 namespace scintray::transport {
-
-static_assert(sizeof(core::PlainVec3) == sizeof(double[3]) && std::is_trivially_copyable_v<core::PlainVec3>);
-/// The numbers of a vector, for the plain data of the kernels. Two at once, as they are loaded: a load of two
-/// waits for stores of one.
-inline void copy(const core::PlainVec3& from, double (&to)[3]) { std::memcpy(to, &from, sizeof(to)); }
-/// The reverse.
-inline core::PlainVec3 vec(const double (&from)[3]) {
-  core::PlainVec3 to;
-  std::memcpy(&to, from, sizeof(to));
-  return to;
-}
 
 /// Planes, or the faces of one convex body, numbered as in LaneWork.
 class LaneFaces {

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "scintray/scene/lane_surface_at.hpp"
-#include "scintray/transport/detail/lane_faces.hpp"
+#include "scintray/transport/detail/photon_numbers.hpp"
 #include "scintray/transport/detail/step_parts.hpp"
 
 namespace scintray::transport {
@@ -42,18 +42,9 @@ void SurfaceLanes::enter(std::uint32_t name, const source::Photon& photon, const
   names_[slot] = name;
   pool_.in_state[lane_state::kFirstStage] |= std::uint64_t{1} << slot;
   LanePhoton& entered = pool_.photons[slot];
-  copy(photon.position, entered.position);
-  copy(photon.ray.direction, entered.direction);
-  copy(photon.ray.polarisation, entered.polarisation);
-  copy(scene_.regions[photon.region].centre, entered.centre);
-  entered.path_mm = photon.path_mm;
-  entered.time_ns = photon.time_ns;
-  entered.depth_left = photon.optical_depth;
-  entered.interactions = photon.interactions;
+  give_photon(scene_, photon, entered);
   entered.segments = 0.0;
   entered.index = photon.optics.index;
-  entered.group_index = photon.optics.group_index;
-  entered.attenuation_per_mm = photon.optics.absorption_per_mm + photon.optics.scattering_per_mm;
   entered.plane = 0.0;
   entered.side = 1.0;
   entered.region = lane_scene_.region_of(photon, slot);
@@ -76,13 +67,7 @@ const std::vector<SurfaceLanes::Left>& SurfaceLanes::run() {
 
 Step SurfaceLanes::finish(const Left& left, source::Photon& photon, core::Rng& rng) {
   const LanePhoton& from = pool_.photons[left.slot];
-  photon.position = vec(from.position);
-  photon.ray.direction = vec(from.direction);
-  photon.ray.polarisation = vec(from.polarisation);
-  photon.path_mm = from.path_mm;
-  photon.time_ns = from.time_ns;
-  photon.optical_depth = from.depth_left;
-  photon.interactions = static_cast<std::uint32_t>(from.interactions);
+  take_photon(from, photon);
   take_numbers(from, rng);
   free_.push_back(left.slot);
   return left.waiting_as == lane_state::kUnclear ? step(scene_, photon, rng, limits_)
