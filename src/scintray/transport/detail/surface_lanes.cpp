@@ -54,8 +54,7 @@ void SurfaceLanes::enter(std::uint32_t name, const source::Photon& photon, const
 const std::vector<SurfaceLanes::Left>& SurfaceLanes::run() {
   run_(pool_);
   left_.clear();
-  for (auto state = static_cast<std::size_t>(lane_state::kFirstWaiting); state < lane_state::kCount;
-       ++state) {
+  for (std::size_t state = lane_state::kFirstOfWaiting; state < lane_state::kCount; ++state) {
     for (std::uint64_t those = std::exchange(pool_.in_state[state], 0); those != 0; those &= those - 1) {
       const auto slot = static_cast<std::uint32_t>(std::countr_zero(those));
       left_.push_back({names_[slot], slot, static_cast<double>(state),
