@@ -28,8 +28,8 @@ inline bool touches_birefringent(const Scene& scene, const Interface& interface)
   return birefringent(interface.back) || birefringent(interface.front);
 }
 
-/// The surface at a boundary triangle's interface; nothing where photons are scattered one by one: dry
-/// contacts, reflectors and tables from behind, surfaces that are not for lanes, all next to a birefringent
+/// The surface at a boundary triangle's interface; of a reflector from behind the reflector
+/// alone. Nothing where photons are scattered one by one: dry contacts, tables from behind, surfaces that are not for lanes, all next to a birefringent
 /// medium, and all where phases are kept.
 inline std::optional<optics::LaneSurface> lane_surface_at(const Scene& scene, const BoundaryLink& link) {
   const Interface& interface = scene.interfaces[link.interface];
@@ -37,7 +37,9 @@ inline std::optional<optics::LaneSurface> lane_surface_at(const Scene& scene, co
     return std::nullopt;
   const LinkSurface at = first_surface(interface, link.from_back);
   std::optional<optics::LaneSurface> surface = optics::lane_surface(scene.surfaces[at.id]);
-  if (surface && (surface->reflector || surface->table) && !at.own) return std::nullopt;
+  if (!surface || at.own) return surface;
+  if (surface->table) return std::nullopt;
+  if (surface->reflector) return optics::LaneSurface{optics::LaneSurface::Micro::painted, nullptr, nullptr, surface->reflector};
   return surface;
 }
 
@@ -58,14 +60,15 @@ inline double totally_reflected(const SceneOptics& optics, core::MediumId here, 
   return std::max(0.0, 1.0 - ratio * ratio);
 }
 
+
+
 inline LaneShares lane_shares(const Scene& scene, const Region& region) {
   const Accelerator& accelerator = scene.accelerator(region);
   const BoundaryLink* const links = scene.links_of(region);
   double all = 0.0;
   LaneShares of;
   for (std::uint32_t i = 0; i < accelerator.size(); ++i) {
-    const BoundaryTriangle t = accelerator.triangle(i);
-    const double area = (t[1] - t[0]).cross(t[2] - t[0]).norm();
+    const double area = area_of(accelerator.triangle(i));
     all += area;
     if (links[i].smooth_to.has_value()) {
       of.smooth += area;

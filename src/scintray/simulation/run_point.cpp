@@ -22,15 +22,6 @@ bool shifts_light(const scene::Scene& scene) {
                      [](const optics::Surface& surface) { return surface.shifts(); });
 }
 
-/// True when light starts where photons are propagated in lanes. Elsewhere each is traced alone, which is
-/// then faster.
-bool starts_in_lanes(const scene::Scene& scene, const source::LightSource& source, int lane_width) {
-  const std::vector<core::RegionId> regions = source.regions();
-  return std::any_of(regions.begin(), regions.end(), [&](core::RegionId region) {
-    return transport::lane_kind(scene, region, lane_width) != transport::LaneKind::none;
-  });
-}
-
 void check_every_photon_has_a_fate(const tally::PointResult& traced, std::uint64_t started) {
   std::uint64_t ended = 0;
   for (const std::uint64_t count : traced.fates) ended += count;
@@ -128,18 +119,27 @@ core::Rng sensor_stream(const RunSettings& settings, std::uint64_t event, std::u
   return core::Rng(settings.seed, core::StreamKind::sensor, event, channel, settings.point);
 }
 
-int lane_width_of(const scene::Scene& scene, const source::LightSource& source, const tally::TallyPlan& plan,
-                  const RunSettings& settings) {
+std::unique_ptr<const transport::LanePlan> lane_plan_of(const scene::Scene& scene,
+                                                        const source::LightSource& source,
+                                                        const tally::TallyPlan& plan,
+                                                        const RunSettings& settings) {
   const bool ends_only = plan.counts.empty() && !plan.history && !shifts_light(scene);
-  return ends_only && starts_in_lanes(scene, source, settings.lane_width) ? settings.lane_width : 1;
+  if (ends_only && settings.lane_width > 1) {
+    // Where light starts in none of the lanes' regions each photon is traced alone, which is then faster.
+    transport::LaneKinds kinds = transport::lane_kinds(scene, settings.lane_width);
+    const std::vector<core::RegionId> regions = source.regions();
+    if (std::any_of(regions.begin(), regions.end(),
+                    [&](core::RegionId region) { return kinds[region] != transport::LaneKind::none; }))
+      return std::make_unique<const transport::LanePlan>(scene, settings.lane_width, std::move(kinds));
+  }
+  return std::make_unique<const transport::LanePlan>(scene, 1);
 }
 
-tally::BlockRange trace_blocks(const scene::Scene& scene, const source::LightSource& source,
-                               const tally::TallyPlan& plan, const RunSettings& settings,
+tally::BlockRange trace_blocks(const TracedPoint& point, const RunSettings& settings,
                                tally::BlockRange blocks, const RunHooks& hooks) {
-  const BlockTracer tracer(scene, source, plan, settings);
-  RangeCollector collector([&] { return tally::empty_sums(scene, plan); }, blocks.first, hooks);
-  const bool energy = source.has_energy();
+  const BlockTracer tracer(point, settings);
+  RangeCollector collector([&] { return tally::empty_sums(point.scene, point.plan); }, blocks.first, hooks);
+  const bool energy = point.source.has_energy();
   std::uint64_t done = 0, kept = 0;
   bool is_enough = false;
   std::atomic<bool> ended{false};  // by a stop or because it is enough, where hooks decide that
@@ -167,18 +167,17 @@ tally::BlockRange trace_blocks(const scene::Scene& scene, const source::LightSou
   return {blocks.first, blocks.first + kept};
 }
 
-tally::PointResult run_point(const scene::Scene& scene, const source::LightSource& source,
-                             const tally::TallyPlan& plan, const RunSettings& settings,
-                             const RunHooks& hooks) {
+tally::PointResult run_point(const TracedPoint& point, const RunSettings& settings, const RunHooks& hooks) {
+  const source::LightSource& source = point.source;
   const bool energy = source.has_energy();
-  tally::PointSums sums = tally::empty_sums(scene, plan);
+  tally::PointSums sums = tally::empty_sums(point.scene, point.plan);
   RunHooks collecting = hooks;
   collecting.range = [&](const tally::BlockRange& range, tally::PointSums more) {
     sums.merge(more);
     if (hooks.range) hooks.range(range, std::move(more));
   };
   const tally::BlockRange all{0, source.blocks()};
-  const tally::BlockRange traced = trace_blocks(scene, source, plan, settings, all, collecting);
+  const tally::BlockRange traced = trace_blocks(point, settings, all, collecting);
   tally::PointResult total = sums.result();
   total.birth_efficiency = settings.birth_efficiency;
   total.complete = traced == all;

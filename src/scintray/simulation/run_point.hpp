@@ -3,12 +3,14 @@
 
 #include <atomic>
 #include <functional>
+#include <memory>
 #include <optional>
 
 #include "scintray/core/lane_width.hpp"
 #include "scintray/source/light_source.hpp"
 #include "scintray/tally/block_tally.hpp"
 #include "scintray/tally/event_record.hpp"
+#include "scintray/transport/lane_plan.hpp"
 #include "scintray/transport/step.hpp"
 
 namespace scintray::simulation {
@@ -86,25 +88,33 @@ inline transport::PropagationLimits limits_of(const RunSettings& settings) {
   return limits;
 }
 
-/// Number of photons that a run of this source propagates at once: settings.lane_width where light starts in
+/// How a run of this source traces several photons at once: settings.lane_width of them where light starts in
 /// regions that gain by it and nothing is recorded of a photon but its end, else 1. No result depends on it.
-int lane_width_of(const scene::Scene& scene, const source::LightSource& source, const tally::TallyPlan& plan,
-                  const RunSettings& settings);
+std::unique_ptr<const transport::LanePlan> lane_plan_of(const scene::Scene& scene,
+                                                        const source::LightSource& source,
+                                                        const tally::TallyPlan& plan,
+                                                        const RunSettings& settings);
+
+/// A point as it is traced.
+struct TracedPoint {
+  const scene::Scene& scene;
+  const source::LightSource& source;
+  const tally::TallyPlan& plan;
+  const transport::LanePlan& lanes;  ///< lane_plan_of() these
+};
 
 /// Traces some blocks of a source's photons: the ranges passed to hooks.range, from `blocks.first` on without
 /// a gap. One range unless hooks.range_ends divides them; fewer blocks after a stop, or when they are enough.
 /// @return the blocks traced
 /// @throws InternalError when a photon has no fate
-tally::BlockRange trace_blocks(const scene::Scene& scene, const source::LightSource& source,
-                               const tally::TallyPlan& plan, const RunSettings& settings,
+tally::BlockRange trace_blocks(const TracedPoint& point, const RunSettings& settings,
                                tally::BlockRange blocks, const RunHooks& hooks);
 
 /// Result of all photons of a source. It does not depend on the number of threads, to the last
 /// bit: every photon has its own random stream, blocks are passed on in order, and sums over them are exact.
 /// A stopped run contains the photons of the blocks before the stop, with `complete = false`.
 /// @throws InternalError when a photon has no fate.
-tally::PointResult run_point(const scene::Scene& scene, const source::LightSource& source,
-                             const tally::TallyPlan& plan, const RunSettings& settings,
+tally::PointResult run_point(const TracedPoint& point, const RunSettings& settings,
                              const RunHooks& hooks = {});
 
 /// Identifies a photon of a run: its event, and its index within the event.

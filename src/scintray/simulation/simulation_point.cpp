@@ -108,14 +108,19 @@ std::optional<tally::LightTiming> SimulationPoint::timing() const {
 
 tally::PointFacts SimulationPoint::facts() const { return {timing(), omitted(), settings_.birth_efficiency}; }
 
+const transport::LanePlan& SimulationPoint::lanes() const {
+  std::call_once(has_lanes_, [this] { lanes_ = lane_plan_of(scene(), *source_, plan_, settings_); });
+  return *lanes_;
+}
+
 tally::PointResult SimulationPoint::trace(const RunHooks& hooks) const {
-  tally::PointResult result = run_point(scene(), *source_, plan_, settings_, hooks);
+  tally::PointResult result = run_point(traced(), settings_, hooks);
   static_cast<tally::PointFacts&>(result) = facts();
   return result;
 }
 
 tally::BlockRange SimulationPoint::trace(const tally::BlockRange& blocks, const RunHooks& hooks) const {
-  return trace_blocks(scene(), *source_, plan_, settings_, blocks, hooks);
+  return trace_blocks(traced(), settings_, blocks, hooks);
 }
 
 tally::PointResult SimulationPoint::trace(const MappedResponse& response, const RunHooks& hooks) const {

@@ -2,6 +2,7 @@
 /// One point of a simulation, ready to be traced.
 
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,7 +45,7 @@ class SimulationPoint {
   /// Seed, limits, threads and random streams.
   const RunSettings& settings() const { return settings_; }
   /// Number of photons that trace() propagates at once. No result depends on it.
-  int lane_width() const { return lane_width_of(scene(), *source_, plan_, settings_); }
+  int lane_width() const { return lanes().width(); }
 
   /// Distribution of the detection time of a photon, where it is the same for all light.
   std::optional<tally::LightTiming> timing() const;
@@ -69,12 +70,18 @@ class SimulationPoint {
   source::Photon start(std::uint64_t event, std::uint64_t photon) const;
 
  private:
+  /// Made by the first call.
+  const transport::LanePlan& lanes() const;
+  TracedPoint traced() const { return {scene(), *source_, plan_, lanes()}; }
+
   scene_file::SceneSpec spec_;
   std::shared_ptr<const scene::BuiltScene> built_;
   std::vector<std::string> source_notes_;
   std::unique_ptr<source::LightSource> source_;
   tally::TallyPlan plan_;
   RunSettings settings_;
+  mutable std::once_flag has_lanes_;
+  mutable std::unique_ptr<const transport::LanePlan> lanes_;
 };
 
 }  // namespace scintray::simulation

@@ -4,8 +4,6 @@
 #include <optional>
 #include <utility>
 
-#include "scintray/core/error.hpp"
-#include "scintray/core/lane_width.hpp"
 #include "scintray/transport/detail/lane_faces.hpp"
 #include "scintray/transport/detail/photon_numbers.hpp"
 #include "scintray/transport/detail/step_parts.hpp"
@@ -64,7 +62,7 @@ class Batch::EndsInOrder {
 
 class Batch::Tracing {
  public:
-  Tracing(const scene::Scene& scene, const PropagationLimits& limits, int lane_width, const LaneKinds& kinds);
+  Tracing(const scene::Scene& scene, const PropagationLimits& limits, const LanePlan& lanes);
 
   void trace(std::uint64_t count, Emit emit, End end);
   const BatchCounts& counts() const { return counts_; }
@@ -87,6 +85,10 @@ class Batch::Tracing {
   bool in_flight() const {
     return !alone_.empty() || !waiting_.empty() || !for_surface_lanes_.empty() || !surface_lanes_.empty();
   }
+  LaneKind kind_of(const source::Photon& photon) const {
+    const LaneKind kind = lanes_.kind(photon.region);
+    return kind == LaneKind::surfaces && !surface_lanes_.takes(photon) ? LaneKind::none : kind;
+  }
   void enqueue(std::uint32_t traveller);
   void trace_in_surface_lanes();
   void trace_alone(std::uint32_t traveller);
@@ -104,7 +106,7 @@ class Batch::Tracing {
 
   const scene::Scene& scene_;
   PropagationLimits limits_;
-  const LaneKinds& kinds_;
+  const LanePlan& lanes_;
   LaneKernels kernels_;
   std::optional<Eigen::AlignedBox3d> reachable_;  ///< ambient_bounds()
   SurfaceLanes surface_lanes_;
@@ -121,9 +123,8 @@ class Batch::Tracing {
   Emit emit_;
 };
 
-Batch::Batch(const scene::Scene& scene, const PropagationLimits& limits, int lane_width,
-             const LaneKinds& kinds)
-    : tracing_(std::make_unique<Tracing>(scene, limits, lane_width, kinds)) {}
+Batch::Batch(const scene::Scene& scene, const PropagationLimits& limits, const LanePlan& lanes)
+    : tracing_(std::make_unique<Tracing>(scene, limits, lanes)) {}
 
 Batch::~Batch() = default;
 
@@ -131,22 +132,18 @@ void Batch::trace(std::uint64_t count, Emit emit, End end) { tracing_->trace(cou
 
 const BatchCounts& Batch::counts() const { return tracing_->counts(); }
 
-Batch::Tracing::Tracing(const scene::Scene& scene, const PropagationLimits& limits, int lane_width,
-                        const LaneKinds& kinds)
+Batch::Tracing::Tracing(const scene::Scene& scene, const PropagationLimits& limits, const LanePlan& lanes)
     : scene_(scene),
       limits_(limits),
-      kinds_(kinds),
-      kernels_(lane_kernels(lane_width)),
+      lanes_(lanes),
+      kernels_(lane_kernels(lanes.width())),
       reachable_(ambient_bounds(scene)),
-      surface_lanes_(scene, limits, kernels_.run) {
-  const std::vector<int>& widths = core::lane_widths();
-  if (std::find(widths.begin(), widths.end(), lane_width) == widths.end())
-    throw core::InternalError("this processor has no lanes of width " + std::to_string(lane_width));
+      surface_lanes_(scene, lanes.scene(), limits, kernels_.run) {
   faces_.resize(scene.accelerators.size());
   for (std::uint32_t i = 0; i < scene.regions.size(); ++i) {
     const core::RegionId region(i);
     const core::AcceleratorId accelerator = scene.regions[region].accelerator;
-    if (kinds[region] != LaneKind::smooth || !faces_[accelerator].list().empty()) continue;
+    if (lanes.kind(region) != LaneKind::smooth || !faces_[accelerator].list().empty()) continue;
     faces_[accelerator] = LaneFaces(*scene.accelerators[accelerator]);
     most_faces_ = std::max(most_faces_, faces_[accelerator].list().size());
   }
@@ -199,13 +196,13 @@ void Batch::Tracing::start() {
 }
 
 void Batch::Tracing::enqueue(std::uint32_t index) {
-  const core::RegionId region = travellers_[index].photon.region;
-  switch (kinds_[region]) {
+  const source::Photon& photon = travellers_[index].photon;
+  switch (kind_of(photon)) {
     case LaneKind::none:
       alone_.push_back(index);
       break;
     case LaneKind::smooth:
-      waiting_.push_back({scene_.regions[region].accelerator, index});
+      waiting_.push_back({scene_.regions[photon.region].accelerator, index});
       break;
     case LaneKind::surfaces:
       for_surface_lanes_.push_back(index);
@@ -218,7 +215,7 @@ void Batch::Tracing::trace_alone(std::uint32_t index) {
   do {
     if (!goes_on(traveller, step(scene_, traveller.photon, traveller.rng, limits_)))
       return ended_.push_back(index);
-  } while (kinds_[traveller.photon.region] == LaneKind::none);
+  } while (kind_of(traveller.photon) == LaneKind::none);
   enqueue(index);
 }
 

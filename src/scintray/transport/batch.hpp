@@ -8,23 +8,10 @@
 #include <vector>
 
 #include "scintray/core/function_ref.hpp"
+#include "scintray/transport/lane_plan.hpp"
 #include "scintray/transport/step.hpp"
 
 namespace scintray::transport {
-
-/// Which kernel traces photons in a region.
-enum class LaneKind {
-  none,      ///< photons are traced one by one
-  smooth,    ///< they are propagated in lanes, through total reflections (lane_kernel.hpp)
-  surfaces,  ///< they stay in lanes at rough faces and reflectors too (lane_pool.hpp)
-};
-
-/// The fastest kernel for a region at a width of lane_widths(). No result depends on it.
-LaneKind lane_kind(const scene::Scene& scene, core::RegionId region, int lane_width);
-
-/// Kernels of all regions of a scene.
-using LaneKinds = core::IdVector<core::RegionId, LaneKind>;
-LaneKinds lane_kinds(const scene::Scene& scene, int lane_width);
 
 /// The end of a photon.
 struct TracedPhoton {
@@ -48,10 +35,9 @@ struct BatchCounts {
 /// done for each photon separately.
 class Batch {
  public:
-  /// @param limits      without `passed`
-  /// @param lane_width  of lane_widths(). @throws InternalError for another
-  /// @param kinds       the scene's, at that width
-  Batch(const scene::Scene& scene, const PropagationLimits& limits, int lane_width, const LaneKinds& kinds);
+  /// @param limits  without `passed`
+  /// @param lanes   of the scene; has to outlive the batch
+  Batch(const scene::Scene& scene, const PropagationLimits& limits, const LanePlan& lanes);
   ~Batch();
 
   /// Sets the states in which photons start, and their random streams: those with successive numbers from

@@ -165,19 +165,6 @@ void absorb_at_surface(const scene::Scene& scene, const scene::Interface& interf
   reach_sensor(scene, interface, photon, {photon.optics.index, result.cos_before}, result);
 }
 
-/// True when light that enters a region through an interface reaches the sensor there, rather than passing
-/// it.
-bool reaches_sensor(const scene::Scene& scene, const scene::Interface& interface, bool from_back) {
-  const core::SensorId id = from_back ? interface.front_sensor : interface.back_sensor;
-  if (!id.has_value()) return false;
-  const detector::Sensor& sensor = scene.sensors[id];
-  if (sensor.converts == detector::ConvertedLight::entering) [[likely]]
-    return true;
-  const core::PartId part = from_back ? interface.front_sensor_part : interface.back_sensor_part;
-  return sensor.converts_entering() &&
-         scene.regions[from_back ? interface.front : interface.back].part == part;
-}
-
 /// Photon and step, of which all but the event is known, when light has passed an interface.
 /// @param there  refractive index behind it
 inline void cross(const scene::Scene& scene, const scene::Interface& interface, double there,
@@ -249,6 +236,17 @@ void interact_at_boundary(const scene::Scene& scene, std::uint32_t triangle, sou
 }
 
 }  // namespace
+
+bool reaches_sensor(const scene::Scene& scene, const scene::Interface& interface, bool from_back) {
+  const core::SensorId id = from_back ? interface.front_sensor : interface.back_sensor;
+  if (!id.has_value()) return false;
+  const detector::Sensor& sensor = scene.sensors[id];
+  if (sensor.converts == detector::ConvertedLight::entering) [[likely]]
+    return true;
+  const core::PartId part = from_back ? interface.front_sensor_part : interface.back_sensor_part;
+  return sensor.converts_entering() &&
+         scene.regions[from_back ? interface.front : interface.back].part == part;
+}
 
 double index_behind(const scene::Scene& scene, const scene::BoundaryLink& link,
                     const source::Photon& photon) {

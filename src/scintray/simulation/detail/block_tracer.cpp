@@ -32,19 +32,17 @@ void FreeBatches::put(std::unique_ptr<transport::Batch> batch) {
   free_.push_back(std::move(batch));
 }
 
-BlockTracer::BlockTracer(const scene::Scene& scene, const source::LightSource& source,
-                         const tally::TallyPlan& plan, const RunSettings& settings)
-    : scene_(scene),
-      source_(source),
-      plan_(plan),
+BlockTracer::BlockTracer(const TracedPoint& point, const RunSettings& settings)
+    : scene_(point.scene),
+      source_(point.source),
+      plan_(point.plan),
       settings_(settings),
-      energy_(source.has_energy()),
-      lane_width_(lane_width_of(scene, source, plan, settings)),
-      lane_kinds_(transport::lane_kinds(scene, lane_width_)) {}
+      energy_(point.source.has_energy()),
+      lanes_(point.lanes) {}
 
 std::uint64_t BlockTracer::together(std::uint64_t blocks) const {
   constexpr std::uint64_t kMost = 8, kPiecesPerThread = 64;
-  if (lane_width_ == 1 || energy_) return 1;
+  if (lanes_.width() == 1 || energy_) return 1;
   const std::uint64_t threads = settings_.threads > 0 ? static_cast<std::uint64_t>(settings_.threads)
                                                       : std::thread::hardware_concurrency();
   return std::clamp<std::uint64_t>(blocks / (kPiecesPerThread * std::max<std::uint64_t>(threads, 1)), 1,
@@ -55,7 +53,7 @@ std::vector<TracedBlock> BlockTracer::trace(const tally::BlockRange& numbers) co
   std::vector<TracedBlock> blocks;
   blocks.reserve(numbers.count());
   while (blocks.size() < numbers.count()) blocks.emplace_back(scene_, plan_);
-  if (lane_width_ > 1)
+  if (lanes_.width() > 1)
     trace_together(numbers.first, blocks);
   else
     for (std::size_t i = 0; i < blocks.size(); ++i) trace_alone(numbers.first + i, blocks[i]);
@@ -93,7 +91,7 @@ void BlockTracer::end_event(std::uint64_t event, TracedBlock& block) const {
 void BlockTracer::trace_together(std::uint64_t first, std::vector<TracedBlock>& blocks) const {
   std::unique_ptr<transport::Batch> batch = batches_.take();
   if (!batch)
-    batch = std::make_unique<transport::Batch>(scene_, limits_of(settings_), lane_width_, lane_kinds_);
+    batch = std::make_unique<transport::Batch>(scene_, limits_of(settings_), lanes_);
   source::EventLight light;
   ConversionDraws draws(settings_);
   std::vector<Address> photons;
@@ -127,7 +125,7 @@ void BlockTracer::trace_photons(std::vector<Address>& photons, const source::Eve
       emitted[i]->number = photons[first + i].photon;
       start_photon_stream(settings_, photons[first + i].event, emitted[i]->number, emitted[i]->rng);
     }
-    source_.emit_together(scene_, light, emitted, lane_width_);
+    source_.emit_together(scene_, light, emitted, lanes_.width());
     for (std::size_t i = 0; i < emitted.size(); ++i)
       emitted[i]->photon.conversion_draw = photons[first + i].conversion_draw;
   };

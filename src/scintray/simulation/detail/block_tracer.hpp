@@ -40,8 +40,7 @@ class FreeBatches {
 class BlockTracer {
  public:
   /// The arguments have to outlive the tracer.
-  BlockTracer(const scene::Scene& scene, const source::LightSource& source, const tally::TallyPlan& plan,
-              const RunSettings& settings);
+  BlockTracer(const TracedPoint& point, const RunSettings& settings);
 
   /// How many of a number of blocks are best traced together. The lanes are full until the last photons of
   /// all are under way, and no result depends on it; threads need several pieces of work each.
@@ -79,8 +78,7 @@ class BlockTracer {
   const tally::TallyPlan& plan_;
   const RunSettings& settings_;
   bool energy_;
-  int lane_width_;
-  transport::LaneKinds lane_kinds_;
+  const transport::LanePlan& lanes_;
   mutable FreeBatches batches_;
 };
 

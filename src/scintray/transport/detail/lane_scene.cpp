@@ -1,7 +1,8 @@
-#include "scintray/transport/detail/surface_lanes.hpp"
+#include "scintray/transport/detail/lane_scene.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "scintray/optics/facet_laws.hpp"
@@ -28,7 +29,7 @@ double state_of(Micro micro) {
   return lane_state::kReflector;
 }
 
-void set_facets(const optics::FacetSurface& facets, LaneFace& face) {
+void set_facets(const optics::FacetSurface& facets, LaneFaceOptics& face) {
   const optics::FacetLimits limits(facets.sigma_alpha_rad,
                                    facets.sampling == optics::FacetSampling::projected_area);
   face.sigma_rad = facets.sigma_alpha_rad;
@@ -50,99 +51,188 @@ double least_total_sin2(double n1, double n2) {
   return least;
 }
 
-/// True when photons meet the same at two links: the same surface, from the same side, and then the same
-/// medium.
-bool meet_the_same(const scene::Scene& scene, const scene::BoundaryLink& a, const scene::BoundaryLink& b) {
+/// A part without planes, for regions of another kind.
+constexpr PlanePair kNoPlanes{};
+
+core::RegionId behind(const scene::Scene& scene, const scene::BoundaryLink& link) {
+  const scene::Interface& interface = scene.interfaces[link.interface];
+  return link.from_back ? interface.front : interface.back;
+}
+
+/// True when the surface and the media are the same at two links of regions of one medium.
+bool are_alike(const scene::Scene& scene, const scene::BoundaryLink& a, const scene::BoundaryLink& b) {
   if (a.interface == b.interface) return a.from_back == b.from_back;
   const scene::Interface &at_a = scene.interfaces[a.interface], &at_b = scene.interfaces[b.interface];
-  const auto behind = [&](const scene::BoundaryLink& link, const scene::Interface& at) {
-    return scene.regions[link.from_back ? at.front : at.back].medium;
-  };
   const scene::LinkSurface first = scene::first_surface(at_a, a.from_back),
                            other = scene::first_surface(at_b, b.from_back);
   return first.id == other.id && first.own == other.own && at_a.plain == at_b.plain &&
-         a.smooth_to == b.smooth_to && behind(a, at_a) == behind(b, at_b);
+         a.smooth_to == b.smooth_to &&
+         scene.regions[behind(scene, a)].medium == scene.regions[behind(scene, b)].medium;
 }
 
 }  // namespace
 
-LaneRegion LaneScene::region_of(const source::Photon& photon, std::size_t photon_index) {
-  const Planes& planes = planes_of(scene_.regions[photon.region]);
-  RegionFaces& known = faces_[photon.region.index()];
-  if (known.at_first.faces.empty()) make_faces(photon, planes, known);
-  const Faces* faces = &known.at_first;
-  if (faces->wavelength_nm != photon.wavelength_nm) {
-    Faces& own = own_[photon_index];
-    faces = &own;
-    if (own.region != photon.region) own = known.at_first;
-    if (own.wavelength_nm != photon.wavelength_nm) {
-      set_wavelength(photon, known.alike, own.faces);
-      own.wavelength_nm = photon.wavelength_nm;
-    }
-  }
-  return {planes.planes.data(), faces->faces.data(), planes.planes.size()};
+LaneScene::LaneScene(const scene::Scene& scene, const LaneKinds& kinds)
+    : scene_(scene) {
+  shapes_.resize(scene.accelerators.size());
+  regions_.resize(scene.regions.size());
+  const auto each = [&](const auto& act) {
+    for (std::uint32_t i = 0; i < scene.regions.size(); ++i)
+      if (kinds[core::RegionId(i)] == LaneKind::surfaces) act(core::RegionId(i));
+  };
+  each([&](core::RegionId id) { make_faces(id); });
+  each([&](core::RegionId id) { link_faces(id, kinds); });
 }
 
-const LaneScene::Planes& LaneScene::planes_of(const scene::Region& region) {
-  std::unique_ptr<Planes>& known = planes_[region.accelerator.index()];
-  if (known) return *known;
-  known = std::make_unique<Planes>();
-  const scene::Boundary& boundary = scene_.accelerator(region).boundary();
+const LaneScene::Shape& LaneScene::shape_of(const scene::Region& region) {
+  Shape& known = shapes_[region.accelerator];
+  if (!known.triangles.empty()) return known;
+  const scene::Accelerator& accelerator = scene_.accelerator(region);
+  if (accelerator.uses_planes())
+    add_planes(accelerator.boundary(), known);
+  else
+    add_gaps(accelerator, known);
+  return known;
+}
+
+void LaneScene::add_planes(const scene::Boundary& boundary, Shape& shape) {
   for (std::size_t i = 0; i < boundary.planes.size();) {
     const scene::BoundingPlane& first = boundary.planes[i];
     const bool paired = i < boundary.opposite_planes;
     const scene::BoundingPlane& second = boundary.planes[paired ? i + 1 : i];
-    known->planes.push_back({{first.normal.x(), first.normal.y(), first.normal.z()},
-                             first.offset,
-                             paired ? second.offset : std::numeric_limits<double>::infinity()});
+    shape.planes.push_back({{first.normal.x(), first.normal.y(), first.normal.z()},
+                            first.offset,
+                            paired ? second.offset : std::numeric_limits<double>::infinity()});
     for (const scene::BoundingPlane* plane : {&first, &second}) {
-      known->triangles.push_back(plane->first);
-      known->mixed.push_back(plane->triangles_begin != plane->triangles_end);
+      shape.triangles.push_back(plane->first);
+      shape.mixed.push_back(plane->triangles_begin != plane->triangles_end);
+      shape.gaps_of.emplace_back();
     }
     i += paired ? 2 : 1;
   }
-  return *known;
 }
 
-void LaneScene::make_faces(const source::Photon& photon, const Planes& planes, RegionFaces& made) {
-  const scene::Region& region = scene_.regions[photon.region];
-  Faces& at_first = made.at_first;
-  at_first.region = photon.region;
-  at_first.wavelength_nm = photon.wavelength_nm;
-  for (std::uint32_t plane = 0; plane < planes.triangles.size(); ++plane) {
-    const scene::BoundaryLink& link = scene_.link(region, planes.triangles[plane]);
-    const std::optional<optics::LaneSurface> surface = scene::lane_surface_at(scene_, link);
-    at_first.faces.push_back(face(photon.region, planes.triangles[plane], surface));
-    if (planes.mixed[plane])
-      at_first.faces.back().kind = lane_state::kUnclear;
-    else if (surface)
-      alike(link, *surface, made.alike).planes.push_back(plane);
+void LaneScene::add_gaps(const scene::Accelerator& accelerator, Shape& shape) {
+  const scene::ThinGaps& thin = accelerator.boundary().thin_gaps;
+  shape.planes.push_back(kNoPlanes);
+  const auto add = [&](std::uint32_t triangle) {
+    if (const auto known = known_face(thin, shape, triangle)) return *known;
+    const auto number = static_cast<std::uint32_t>(shape.triangles.size());
+    const scene::ThinGaps::Range range = thin.of_triangle[triangle];
+    shape.triangles.push_back(triangle);
+    shape.mixed.push_back(false);
+    shape.gaps_of.push_back(range);
+    shape.face_of[range.begin != range.end ? range.begin
+                                           : static_cast<std::uint32_t>(thin.gaps.size()) + triangle] = number;
+    return number;
+  };
+  for (std::uint32_t triangle = 0; triangle < thin.of_triangle.size(); ++triangle)
+    if (thin.of_triangle[triangle].begin != thin.of_triangle[triangle].end) add(triangle);
+  for (const scene::ThinGap& gap : thin.gaps) {
+    LaneGap lanes{};
+    const core::Lanes plane = accelerator.plane(gap.beyond);
+    for (int axis = 0; axis < 3; ++axis) {
+      lanes.normal[axis] = accelerator.normal(gap.beyond)[axis];
+      lanes.x[axis] = gap.x[axis];
+      lanes.y[axis] = gap.y[axis];
+    }
+    lanes.offset_mm = plane.zw[1];
+    lanes.low_x = gap.low_x;
+    lanes.high_x = gap.high_x;
+    lanes.low_y = gap.low_y;
+    lanes.high_y = gap.high_y;
+    lanes.beyond = add(gap.beyond);
+    shape.gaps.push_back(lanes);
   }
-  set_wavelength(photon, made.alike, at_first.faces);
 }
 
-LaneFace LaneScene::face(core::RegionId region, std::uint32_t triangle,
-                         const std::optional<optics::LaneSurface>& surface) const {
-  const core::PlainVec3& normal = scene_.accelerator(scene_.regions[region]).normal(triangle);
+std::optional<std::uint32_t> LaneScene::known_face(const scene::ThinGaps& thin, const Shape& shape,
+                                                   std::uint32_t triangle) {
+  const scene::ThinGaps::Range range = thin.of_triangle[triangle];
+  const auto known =
+      shape.face_of.find(range.begin != range.end ? range.begin
+                                                  : static_cast<std::uint32_t>(thin.gaps.size()) + triangle);
+  return known == shape.face_of.end() ? std::nullopt : std::optional(known->second);
+}
+
+std::optional<std::uint32_t> LaneScene::face_at_gap(const source::Photon& photon) const {
+  const scene::Region& region = scene_.regions[photon.region];
+  if (photon.on_triangle == scene::kNoTriangle) return std::nullopt;
+  const scene::ThinGaps& thin = scene_.accelerator(region).boundary().thin_gaps;
+  const scene::ThinGaps::Range range = thin.of_triangle[photon.on_triangle];
+  if (range.begin == range.end) return std::nullopt;
+  return known_face(thin, shapes_[region.accelerator], photon.on_triangle);
+}
+
+void LaneScene::make_faces(core::RegionId id) {
+  const scene::Region& region = scene_.regions[id];
+  const Shape& shape = shape_of(region);
+  Region& made = regions_[id];
+  for (std::uint32_t number = 0; number < shape.triangles.size(); ++number)
+    made.faces.push_back(face(region, shape, number));
+  made.region.planes = shape.planes.data();
+  made.region.faces = made.faces.data();
+  made.region.count = static_cast<std::uint32_t>(shape.planes.size());
+  has_gaps_ = has_gaps_ || region.thin_gaps;
+  made.region.has_gaps = region.thin_gaps ? 1 : 0;
+  made.region.number = static_cast<std::uint32_t>(id.index());
+  made.region.medium = static_cast<std::uint32_t>(region.medium.index());
+  if (std::find(media_.begin(), media_.end(), region.medium) == media_.end())
+    media_.push_back(region.medium);
+}
+
+LaneFace LaneScene::face(const scene::Region& region, const Shape& shape, std::uint32_t number) {
+  const std::uint32_t triangle = shape.triangles[number];
+  const core::PlainVec3& normal = scene_.accelerator(region).normal(triangle);
   LaneFace face{};
   for (int axis = 0; axis < 3; ++axis) face.normal[axis] = normal[axis];
   face.kind = lane_state::kBoundary;
-  face.least_sin2 = kNoTotalReflection;
-  if (!surface) return face;
-  face.kind = state_of(surface->micro);
-  if (surface->facets) set_facets(*surface->facets, face);
-  if (!surface->reflector) return face;
-  face.reflector = 1.0;
-  face.specular_share = surface->reflector->specular_share;
+  face.optics = scene_.optics.media.size();
+  const scene::ThinGaps::Range gaps = shape.gaps_of[number];
+  face.gaps = shape.gaps.data() + gaps.begin;
+  face.gap_count = gaps.end - gaps.begin;
+  const scene::BoundaryLink& link = scene_.link(region, triangle);
+  const std::optional<optics::LaneSurface> surface = scene::lane_surface_at(scene_, link);
+  if (surface && !shape.mixed[number]) {
+    face.kind = state_of(surface->micro);
+    face.optics = alike(link, region.medium, *surface);
+  }
+  if (shape.mixed[number]) face.kind = lane_state::kUnclear;
   return face;
 }
 
-LaneScene::AlikeFaces& LaneScene::alike(const scene::BoundaryLink& link, const optics::LaneSurface& surface,
-                                        std::vector<AlikeFaces>& of_region) {
-  for (AlikeFaces& known : of_region)
-    if (meet_the_same(scene_, known.link, link)) return known;
-  of_region.push_back({link, surface, surface.table ? tables_of(*surface.table) : nullptr, {}});
-  return of_region.back();
+void LaneScene::link_faces(core::RegionId id, const LaneKinds& kinds) {
+  const scene::Region& region = scene_.regions[id];
+  const Shape& shape = shapes_[region.accelerator];
+  for (std::size_t number = 0; number < shape.triangles.size(); ++number) {
+    LaneFace& face = regions_[id].faces[number];
+    if (face.optics == scene_.optics.media.size()) continue;
+    const std::uint32_t triangle = shape.triangles[number];
+    const scene::BoundaryLink& link = scene_.link(region, triangle);
+    const core::RegionId next = behind(scene_, link);
+    if (kinds[next] != LaneKind::surfaces || 
+        reaches_sensor(scene_, scene_.interfaces[link.interface], link.from_back)) continue;
+    const scene::Region& there = scene_.regions[next];
+    face.behind_face = 0.0;
+    if (there.thin_gaps) {
+      source::Photon photon;
+      photon.region = next;
+      photon.on_triangle = scene_.twin(region, triangle);
+      const std::optional<std::uint32_t> at = face_at_gap(photon);
+      if (!at) continue;
+      face.behind_face = *at;
+    }
+    for (int axis = 0; axis < 3; ++axis) face.behind_centre[axis] = there.centre[axis];
+    face.behind = &regions_[next].region;
+  }
+}
+
+std::size_t LaneScene::alike(const scene::BoundaryLink& link, core::MediumId here,
+                             const optics::LaneSurface& surface) {
+  for (std::size_t i = 0; i < alike_.size(); ++i)
+    if (alike_[i].here == here && are_alike(scene_, alike_[i].link, link)) return scene_.optics.media.size() + 3 * (i + 1);
+  alike_.push_back({link, here, surface, surface.table ? tables_of(*surface.table) : nullptr});
+  return scene_.optics.media.size() + 3 * alike_.size();
 }
 
 const LaneTable* LaneScene::tables_of(const optics::SurfaceTable& table) {
@@ -162,38 +252,47 @@ const LaneTable* LaneScene::tables_of(const optics::SurfaceTable& table) {
   return known.data();
 }
 
-void LaneScene::set_wavelength(const source::Photon& photon, const std::vector<AlikeFaces>& alike,
-                               std::vector<LaneFace>& faces) const {
-  const double here = photon.optics.index;
-  for (const AlikeFaces& set : alike) {
-    const scene::Interface& interface = scene_.interfaces[set.link.interface];
-    LaneFace at = faces[set.planes.front()];  // alike but for their normals
-    at.index_behind = index_behind(scene_, set.link, photon);
+void LaneScene::set_wavelength(double wavelength_nm, AtWavelength& to) const {
+  to.wavelength_nm = wavelength_nm;
+  const std::size_t media = scene_.optics.media.size();
+  to.records.resize(media + 3 * (alike_.size() + 1));
+  const auto set = [&to](std::size_t place, const auto& record) {
+    std::memcpy(&to.records[place], &record, sizeof(record));
+  };
+  for (const core::MediumId medium : media_) {
+    const optics::MediumOptics at = scene_.optics.at(medium, wavelength_nm);
+    set(medium.index(), LaneMedium{at.index, at.group_index, at.absorption_per_mm + at.scattering_per_mm});
+  }
+  LaneFaceOptics none{};
+  none.least_sin2 = kNoTotalReflection;
+  set(media, none);
+  source::Photon light;
+  light.wavelength_nm = wavelength_nm;
+  for (std::size_t i = 0; i < alike_.size(); ++i) {
+    const AlikeFaces& alike = alike_[i];
+    const scene::Interface& interface = scene_.interfaces[alike.link.interface];
+    const double here = light.optics.index = to.records[alike.here.index()].of[0];
+    LaneFaceOptics at{};
+    at.index_behind = index_behind(scene_, alike.link, light);
     at.counted = !interface.plain || here != at.index_behind ? 1.0 : 0.0;
-    if (interface.plain) at.least_sin2 = critical_sin2(scene_, set.link.smooth_to, photon);
-    if (set.surface.table) {
-      const auto between = set.surface.table->between_wavelengths(photon.wavelength_nm);
-      at.table = set.tables + between.first;
+    at.least_sin2 = interface.plain ? critical_sin2(scene_, alike.link.smooth_to, light) : kNoTotalReflection;
+    if (alike.surface.facets) set_facets(*alike.surface.facets, at);
+    if (alike.surface.table) {
+      const auto between = alike.surface.table->between_wavelengths(wavelength_nm);
+      at.table = alike.tables + between.first;
       at.to_next = between.to_next ? std::max(0.0, *between.to_next) : -1.0;
     }
-    if (set.surface.reflector) {
-      const optics::Surface& stack = scene_.surfaces[scene::first_surface(interface, set.link.from_back).id];
-      const bool painted = set.surface.micro == Micro::painted;
-      at.index_behind = painted ? here : stack.gap_index(photon.wavelength_nm);
-      at.reflectance = set.surface.reflector->reflectance(photon.wavelength_nm);
+    if (alike.surface.reflector) {
+      const optics::Surface& stack = scene_.surfaces[scene::first_surface(interface, alike.link.from_back).id];
+      const bool painted = alike.surface.micro == Micro::painted;
+      at.index_behind = painted ? here : stack.gap_index(wavelength_nm);
+      at.reflectance = alike.surface.reflector->reflectance(wavelength_nm);
+      at.reflector = 1.0;
+      at.specular_share = alike.surface.reflector->specular_share;
     }
-    if (!interface.plain && set.surface.micro == Micro::smooth)
+    if (!interface.plain && alike.surface.micro == Micro::smooth)
       at.least_sin2 = least_total_sin2(here, at.index_behind);
-    for (const std::uint32_t plane : set.planes) {
-      LaneFace& face = faces[plane];
-      face.index_behind = at.index_behind;
-      face.least_sin2 = at.least_sin2;
-      face.counted = at.counted;
-      face.reflectance = at.reflectance;
-      if (!set.surface.table) continue;
-      face.table = at.table;
-      face.to_next = at.to_next;
-    }
+    set(media + 3 * (i + 1), at);
   }
 }
 

@@ -37,6 +37,10 @@ inline double critical_sin2(const scene::Scene& scene, core::MediumId medium, co
 /// where light enters an opaque part: its reflection is defined by its surface.
 double index_behind(const scene::Scene& scene, const scene::BoundaryLink& link, const source::Photon& photon);
 
+/// True when light that enters a region through an interface reaches the sensor there, rather than passing
+/// it.
+bool reaches_sensor(const scene::Scene& scene, const scene::Interface& interface, bool from_back);
+
 /// A photon at a boundary of its region.
 struct BoundaryPlace {
   std::uint32_t triangle = scene::kNoTriangle;  ///< of the region's boundary

@@ -23,16 +23,34 @@ Step reflected_in_lanes() {
 LaneRegion empty_region() {
   static const PlanePair planes{};
   static const LaneFace faces[2] = {};
-  return {&planes, faces, 1};
+  LaneRegion region;
+  region.planes = &planes;
+  region.faces = faces;
+  region.count = 1;
+  return region;
+}
+const LaneRecord* empty_optics() {
+  static const LaneRecord records[3] = {};
+  return records;
 }
 
 }  // namespace
 
-SurfaceLanes::SurfaceLanes(const scene::Scene& scene, const PropagationLimits& limits, RunLanes kernel)
-    : scene_(scene), limits_(limits), run_(kernel), lane_scene_(scene), pool_{} {
-  for (LanePhoton& photon : pool_.photons) photon.region = empty_region();
+SurfaceLanes::SurfaceLanes(const scene::Scene& scene, const LaneScene& lanes,
+                           const PropagationLimits& limits, RunLanes kernel)
+    : scene_(scene),
+      limits_(limits),
+      run_(kernel),
+      lane_scene_(lanes),
+      own_(LanePool::kPhotons),
+      pool_{} {
+  for (LanePhoton& photon : pool_.photons) {
+    photon.region = empty_region();
+    photon.optics = empty_optics();
+  }
   pool_.most_interactions = static_cast<double>(limits.interactions);
   pool_.most_time_ns = limits.time_ns;
+  pool_.has_gaps = lane_scene_.has_gaps();
   for (std::uint32_t slot = LanePool::kPhotons; slot-- > 0;) free_.push_back(slot);
 }
 
@@ -40,15 +58,26 @@ void SurfaceLanes::enter(std::uint32_t name, const source::Photon& photon, const
   const std::uint32_t slot = free_.back();
   free_.pop_back();
   names_[slot] = name;
-  pool_.in_state[lane_state::kFirstStage] |= std::uint64_t{1} << slot;
   LanePhoton& entered = pool_.photons[slot];
   give_photon(scene_, photon, entered);
   entered.segments = 0.0;
   entered.index = photon.optics.index;
-  entered.plane = 0.0;
   entered.side = 1.0;
-  entered.region = lane_scene_.region_of(photon, slot);
+  entered.region = lane_scene_.region(photon.region);
+  entered.optics = optics_at(photon.wavelength_nm, slot);
+  const bool at_gap = entered.region.has_gaps != 0;
+  entered.plane = at_gap ? *lane_scene_.face_at_gap(photon) : 0.0;
+  pool_.in_state[static_cast<std::size_t>(at_gap ? lane_state::kAcross : lane_state::kPropagate)] |=
+      std::uint64_t{1} << slot;
   give_numbers(rng, entered);
+}
+
+const LaneRecord* SurfaceLanes::optics_at(double wavelength_nm, std::uint32_t slot) {
+  if (at_first_.records.empty()) lane_scene_.set_wavelength(wavelength_nm, at_first_);
+  if (at_first_.wavelength_nm == wavelength_nm) return at_first_.records.data();
+  LaneScene::AtWavelength& own = own_[slot];
+  if (own.wavelength_nm != wavelength_nm) lane_scene_.set_wavelength(wavelength_nm, own);
+  return own.records.data();
 }
 
 const std::vector<SurfaceLanes::Left>& SurfaceLanes::run() {
@@ -67,6 +96,14 @@ const std::vector<SurfaceLanes::Left>& SurfaceLanes::run() {
 Step SurfaceLanes::finish(const Left& left, source::Photon& photon, core::Rng& rng) {
   const LanePhoton& from = pool_.photons[left.slot];
   take_photon(from, photon);
+  const core::RegionId region(from.region.number);
+  if (photon.region != region) {
+    photon.region = region;
+    photon.optics = scene_.optics.at(scene_.regions[region].medium, photon.wavelength_nm);
+  }
+  photon.on_triangle = from.region.has_gaps != 0
+                           ? lane_scene_.triangle(region, static_cast<std::size_t>(from.plane))
+                           : scene::kNoTriangle;
   take_numbers(from, rng);
   free_.push_back(left.slot);
   return left.waiting_as == lane_state::kUnclear ? step(scene_, photon, rng, limits_)
@@ -80,13 +117,12 @@ Step SurfaceLanes::step_at_end(const Left& left, source::Photon& photon, core::R
     return end_of_step(scene_, propagation, photon, rng, nullptr);
   }
   if (left.waiting_as == lane_state::kCut) return reflected_in_lanes();
-  const scene::Region& region = scene_.regions[photon.region];
   const BoundaryPlace at{
-      lane_scene_.triangle(region, static_cast<std::size_t>(pool_.photons[left.slot].plane)),
+      lane_scene_.triangle(photon.region, static_cast<std::size_t>(pool_.photons[left.slot].plane)),
       pool_.photons[left.slot].cos_before};
   if (left.waiting_as == lane_state::kCrossed) return cross_boundary(scene_, at, photon);
   if (left.waiting_as == lane_state::kAbsorbed) {
-    const scene::BoundaryLink& link = scene_.link(region, at.triangle);
+    const scene::BoundaryLink& link = scene_.link(scene_.regions[photon.region], at.triangle);
     const scene::Interface& interface = scene_.interfaces[link.interface];
     return absorb_at_boundary(scene_, at, scene::first_surface(interface, link.from_back).id, photon);
   }

@@ -92,7 +92,8 @@ class LanePasses : LanePhotons<Real, kDraws> {
   struct Now : Moving {
     Vector normal;  ///< of the plane, out of the region
     Real kind, index_behind, least_sin2, counted, reflector;
-    const double* face[kWidth];  ///< LaneFace
+    const double* face[kWidth];    ///< LaneFace
+    const double* optics[kWidth];  ///< LaneFaceOptics
   };
 
   /// Carries photons that are in a state through this stage and those that follow.
@@ -105,7 +106,7 @@ class LanePasses : LanePhotons<Real, kDraws> {
       needed = kManyLanes;
       return true;
     };
-    bool has_moved = false, at_surface = false;
+    bool has_moved = false, at_surface = false, has_entered = false;
     for (;;) {
       if (const Mask here = now.state == Real(lane_state::kPropagate); is_time(here)) {
         if (!has_moved) take_places();
@@ -113,17 +114,28 @@ class LanePasses : LanePhotons<Real, kDraws> {
         propagate(now, here);
         continue;
       }
+      if (const Mask here = now.state == Real(lane_state::kAcross); is_time(here)) {
+        if (!has_moved) take_places();
+        has_moved = true;
+        cross_gap(now, here);
+        continue;
+      }
       if (!at_surface) {
         const Mask there =
-            (now.state > Real(lane_state::kPropagate)) & (now.state < Real(lane_state::kFirstWaiting));
+            (now.state > Real(lane_state::kAcross)) & (now.state < Real(lane_state::kFirstWaiting));
         if (number_of_lanes(there) < needed) break;
         at_surface = true;
         if (!has_moved) load_faces(now);
         take_numbers();
       }
       if (!interact(now, is_time)) break;
+      if (const Mask here = now.state == Real(lane_state::kThrough); any(here)) {
+        if (!has_moved) take_places();
+        has_moved = true;
+        if (enter_next(now, here)) has_entered = true;
+      }
     }
-    put_back(now, has_moved, at_surface);
+    put_back(now, has_moved, at_surface, has_entered);
   }
 
   /// The stages at a surface; false when none is passed.
@@ -151,8 +163,13 @@ class LanePasses : LanePhotons<Real, kDraws> {
     if (const Mask here = in(lane_state::kReflected); any(here)) {
       const Mask within = (load(interactions_) < Real(pool_.most_interactions)) &
                           (load(time_ns_) <= Real(pool_.most_time_ns));
-      now.state =
-          select(here, select(within, Real(lane_state::kPropagate), Real(lane_state::kCut)), now.state);
+      Real moving(lane_state::kPropagate);
+      if (pool_.has_gaps) {
+        unsigned at_gaps = 0;
+        for (std::size_t lane = 0; lane < kWidth; ++lane) at_gaps |= photon_[lane]->region.has_gaps << lane;
+        moving = select(Mask::of(at_gaps), Real(lane_state::kAcross), moving);
+      }
+      now.state = select(here, select(within, moving, Real(lane_state::kCut)), now.state);
     }
     return some;
   }
@@ -160,10 +177,12 @@ class LanePasses : LanePhotons<Real, kDraws> {
   // Planes and faces.
 
   void load_faces(Now& now) const {
-    for (std::size_t lane = 0; lane < kWidth; ++lane)
-      now.face[lane] = reinterpret_cast<const double*>(photon_[lane]->region.faces +
-                                                       static_cast<std::size_t>(plane_[lane]));
-    const LaneFours<Real> first = face_numbers(now, 0), second = face_numbers(now, 1);
+    for (std::size_t lane = 0; lane < kWidth; ++lane) {
+      const LaneFace& face = photon_[lane]->region.faces[static_cast<std::size_t>(plane_[lane])];
+      now.face[lane] = face.normal;
+      now.optics[lane] = photon_[lane]->optics[face.optics].of;
+    }
+    const LaneFours<Real> first = row_of(now.face, 0), second = row_of(now.optics, 0);
     now.normal = {first.of[0], first.of[1], first.of[2]};
     now.kind = first.of[3];
     now.index_behind = second.of[0];
@@ -171,23 +190,27 @@ class LanePasses : LanePhotons<Real, kDraws> {
     now.counted = second.of[2];
     now.reflector = second.of[3];
   }
-  /// Four numbers of LaneFace, the first, second, third or fourth.
-  static LaneFours<Real> face_numbers(const Now& now, int which) {
+  /// Four numbers of LaneFace or LaneFaceOptics, the first, second or third.
+  static LaneFours<Real> row_of(const double* const (&of)[kWidth], int which) {
     const double* at[kWidth];
-    for (std::size_t lane = 0; lane < kWidth; ++lane) at[lane] = now.face[lane] + 4 * which;
+    for (std::size_t lane = 0; lane < kWidth; ++lane) at[lane] = of[lane] + 4 * which;
     LaneFours<Real> fours;
     load_fours(at, fours);
     return fours;
   }
+  static const LaneFace& face_of(const Now& now, std::size_t lane) {
+    return *reinterpret_cast<const LaneFace*>(now.face[lane]);
+  }
 
-  LaneAhead<Real> nearest_plane(const Vector& local, const Vector& direction) const {
+  LaneAhead<Real> nearest_plane(const Vector& local, const Vector& direction, unsigned here) const {
     LaneAhead<Real> nearest;
-    const LaneRegion& one = photon_[0]->region;
+    const LaneRegion& one = photon_[__builtin_ctz(here)]->region;
     bool same = true;
     std::size_t count = one.count;
-    for (std::size_t lane = 1; lane < kWidth; ++lane) {
-      const LaneRegion& region = photon_[lane]->region;
-      same = same && region.planes == one.planes;
+    for (std::size_t lane = 0; lane < kWidth; ++lane) {
+      // Without branches, which would be predicted wrongly.
+      const LaneRegion& region = (here >> lane & 1) != 0 ? photon_[lane]->region : one;
+      same = same & (region.planes == one.planes);
       count = region.count > count ? region.count : count;
     }
     if (same) {
@@ -220,15 +243,81 @@ class LanePasses : LanePhotons<Real, kDraws> {
 
   /// To the next plane, and through a total reflection there.
   void propagate(Now& now, const Mask& here) {
-    const Vector position = load(position_), direction = now.light.direction;
-    const LaneAhead<Real> ahead = nearest_plane(position - load(centre_), direction);
-    store(plane_, select(here, ahead.plane, load(plane_)));
-    load_faces(now);
-
+    const LaneAhead<Real> ahead =
+        nearest_plane(load(position_) - load(centre_), now.light.direction, lanes_of(here));
     const Real zero(0.0);
     const Real distance = select(ahead.distance_mm < zero, zero, ahead.distance_mm);
+    store(plane_, select(here, ahead.plane, load(plane_)));
+    move<false>(now, here, here, distance);
+  }
+
+  /// Across a thin gap to the face beyond, as scene::Accelerator::exit_across_gap().
+  void cross_gap(Now& now, const Mask& here) {
+    static constexpr LaneGap kNone{{0, 0, 0}, 0, {0, 0, 0}, 1, {0, 0, 0}, 1, 0, 0, 0};  // has no point
+    const Vector local = load(position_) - load(centre_), direction = now.light.direction;
+    const LaneGap* next[kWidth];
+    const LaneGap* end[kWidth];
+    const unsigned lanes = lanes_of(here);
+    for (std::size_t lane = 0; lane < kWidth; ++lane) {
+      const LaneFace& face = photon_[lane]->region.faces[static_cast<std::size_t>(plane_[lane])];
+      const bool takes_part = (lanes >> lane & 1) != 0;
+      next[lane] = takes_part ? face.gaps : &kNone;
+      end[lane] = takes_part ? face.gaps + face.gap_count : &kNone;
+    }
+    const Real zero(0.0);
+    Real distance = zero, beyond = load(plane_);
+    Mask found = here & !here, pending = here;
+    for (;;) {
+      const double* at[kWidth];
+      for (std::size_t lane = 0; lane < kWidth; ++lane)
+        at[lane] = (next[lane] != end[lane] ? next[lane] : &kNone)->normal;
+      const LaneFours<Real> plane = row_of(at, 0), first = row_of(at, 1), second = row_of(at, 2),
+                            last = row_of(at, 3);
+      const Vector normal{plane.of[0], plane.of[1], plane.of[2]};
+      const Vector x{first.of[0], first.of[1], first.of[2]}, y{second.of[0], second.of[1], second.of[2]};
+      const Real at_x = dot(x, local), at_y = dot(y, local);
+      const auto contains = [&](const Real& along_x, const Real& along_y) {
+        return (along_x >= first.of[3]) & (along_x <= last.of[0]) & (along_y >= second.of[3]) &
+               (along_y <= last.of[1]);
+      };
+      // As Accelerator::approach_of(), in its order of additions.
+      const Real cosine = (normal.x * direction.x + normal.z * direction.z) + normal.y * direction.y;
+      const Real height = (normal.x * local.x + normal.z * local.z) + (normal.y * local.y - plane.of[3]);
+      const Real ahead = -height / cosine;
+      const Real this_distance = select(ahead > zero, ahead, zero);
+      const Mask starts = pending & contains(at_x, at_y), approaches = cosine > zero;
+      const Mask this_one =
+          starts & approaches &
+          contains(at_x + this_distance * dot(x, direction), at_y + this_distance * dot(y, direction));
+      distance = select(this_one, this_distance, distance);
+      beyond = select(this_one, last.of[2], beyond);
+      found = found | this_one;
+      pending = pending & !(this_one | (starts & !approaches));
+      unsigned more = 0;
+      for (unsigned these = lanes_of(pending); these != 0; these &= these - 1) {
+        const auto lane = static_cast<std::size_t>(__builtin_ctz(these));
+        more |= next[lane] == end[lane] || ++next[lane] == end[lane] ? 0U : 1U << lane;
+      }
+      if (more == 0) break;
+      pending = pending & Mask::of(more);
+    }
+    store(plane_, beyond);
+    move<true>(now, here, found, distance);
+  }
+
+  /// Along a segment to a face, and in a region bounded by planes through a total reflection there.
+  /// @param known  its face is
+  template <bool kAcross>
+  void move(Now& now, const Mask& here, const Mask& known, const Real& distance) {
+    load_faces(now);
+    const Real zero(0.0);
+    const Vector position = load(position_), direction = now.light.direction;
     const Real depth = load(attenuation_per_mm_) * distance, depth_left = load(depth_left_);
-    const Mask bulk = depth > depth_left, unclear = now.kind == Real(lane_state::kUnclear);
+    const Real cosine = dot(direction, now.normal);
+    const Mask total = totally_reflected(cosine, now.least_sin2);
+    const Mask bulk = known & (depth > depth_left);
+    Mask unclear = (!known) | (now.kind == Real(lane_state::kUnclear));
+    if constexpr (kAcross) unclear = unclear | total;  // the scalar code goes on with Embree
     const Mask moves = here & !(bulk | unclear);
     const Real path = load(path_mm_), time = load(time_ns_);
     const Real there_time = time + time_along(distance, load(group_index_));
@@ -239,17 +328,55 @@ class LanePasses : LanePhotons<Real, kDraws> {
     store(segments_, load(segments_) + one_if(here & (bulk | !unclear)));
     const Real interactions = load(interactions_) + select(moves, now.counted, zero);
     store(interactions_, interactions);
-
-    const Real cosine = dot(direction, now.normal);
     store(cos_before_, select(here, magnitude(cosine), load(cos_before_)));
-    const Mask total = totally_reflected(cosine, now.least_sin2);
-    now.light = select(moves & total, reflected(now.light, now.normal), now.light);
-    const Mask within =
-        (interactions < Real(pool_.most_interactions)) & (there_time <= Real(pool_.most_time_ns));
-    const Real after_total = select(within, Real(lane_state::kPropagate), Real(lane_state::kCut));
     const Real stays = select(bulk, Real(lane_state::kBulk), Real(lane_state::kUnclear));
-    const Real moved = select(total, after_total, now.kind);
-    now.state = select(here, select(moves, moved, stays), now.state);
+    if constexpr (kAcross) {
+      now.state = select(here, select(moves, now.kind, stays), now.state);
+    } else {
+      now.light = select(moves & total, reflected(now.light, now.normal), now.light);
+      const Mask within =
+          (interactions < Real(pool_.most_interactions)) & (there_time <= Real(pool_.most_time_ns));
+      const Real after_total = select(within, Real(lane_state::kPropagate), Real(lane_state::kCut));
+      now.state =
+          select(here, select(moves, select(total, after_total, now.kind), stays), now.state);
+    }
+  }
+
+  /// Into the region behind the face, where that is in lanes; else the photon waits.
+  /// @return whether some photon has entered it
+  bool enter_next(Now& now, const Mask& here) {
+    const Mask within = (load(interactions_) < Real(pool_.most_interactions)) &
+                        (load(time_ns_) <= Real(pool_.most_time_ns));
+    unsigned entering = 0, at_gaps = 0;
+    const double* media[kWidth];
+    const unsigned may = lanes_of(here & within);
+    for (std::size_t lane = 0; lane < kWidth; ++lane) {
+      LanePhoton& photon = *photon_[lane];
+      const LaneRegion* const behind = face_of(now, lane).behind;
+      const bool enters = (may >> lane & 1) != 0 && behind != nullptr;
+      photon.region = *(enters ? behind : &photon.region);
+      media[lane] = photon.optics[photon.region.medium].of;
+      entering |= (enters ? 1U : 0U) << lane;
+      at_gaps |= photon.region.has_gaps << lane;
+    }
+    if (entering == 0) {
+      now.state = select(here, Real(lane_state::kCrossed), now.state);
+      return false;
+    }
+    const Mask enters = Mask::of(entering);
+    const LaneFours<Real> there = row_of(now.face, 1);
+    LaneFours<Real> medium;
+    load_fours(media, medium);
+    const auto set = [&enters](auto& to, const Real& value) { store(to, select(enters, value, load(to))); };
+    for (std::size_t axis = 0; axis < 3; ++axis) set(centre_[axis], there.of[axis]);
+    set(plane_, there.of[3]);
+    set(index_, medium.of[0]);
+    set(group_index_, medium.of[1]);
+    set(attenuation_per_mm_, medium.of[2]);
+    now.side = select(enters, Real(1.0), now.side);
+    const Real moving = select(Mask::of(at_gaps), Real(lane_state::kAcross), Real(lane_state::kPropagate));
+    now.state = select(here, select(enters, moving, Real(lane_state::kCrossed)), now.state);
+    return true;
   }
 
   /// Smooth surfaces, and facets, for which one is drawn first; where none is accepted the photon stays.
@@ -258,7 +385,7 @@ class LanePasses : LanePhotons<Real, kDraws> {
     Vector m = against;
     Mask pending = facets;
     if (any(facets)) {
-      const LaneFours<Real> more = face_numbers(now, 2), last = face_numbers(now, 3);
+      const LaneFours<Real> more = row_of(now.optics, 1), last = row_of(now.optics, 2);
       const Mask by_area = last.of[0] > Real(0.0);
       const optics::FacetNumbers<Real> numbers{more.of[0], more.of[1], more.of[2], more.of[3], by_area};
       do {
@@ -285,7 +412,7 @@ class LanePasses : LanePhotons<Real, kDraws> {
     const Real outward = now.side * dot(now.light.direction, now.normal);
     const Mask left = ready & (smooth | (outward < Real(0.0)));
     const Real through =
-        select(now.reflector > Real(0.0), Real(lane_state::kReflector), Real(lane_state::kCrossed));
+        select(now.reflector > Real(0.0), Real(lane_state::kReflector), Real(lane_state::kThrough));
     const Real next = select(now.side > Real(0.0), Real(lane_state::kReflected), through);
     now.state = select(left, next, now.state);
     count_drawn(one_if(ready & after.drawn));
@@ -335,7 +462,7 @@ class LanePasses : LanePhotons<Real, kDraws> {
       found.interval[lane] = &kNone;
       found.several[lane] = found.absorbs[lane] = found.transmits[lane] = 0.0;
       if ((lanes >> lane & 1) == 0) continue;
-      const LaneFace& face = *reinterpret_cast<const LaneFace*>(now.face[lane]);
+      const LaneFaceOptics& face = *reinterpret_cast<const LaneFaceOptics*>(now.optics[lane]);
       const LaneTable& table = *face.table;
       found.view[lane] = &table.view[uniform[lane] < face.to_next ? 1 : 0][side[lane] > 0.0 ? 0 : 1];
       found.interval[lane] = &optics::interval_at(*found.view[lane], slant[lane]);
@@ -432,7 +559,7 @@ class LanePasses : LanePhotons<Real, kDraws> {
     now.light.direction = select(leaves, direction, now.light.direction);
     now.side = select(leaves, after, now.side);
     const Real through =
-        select(now.reflector > zero, Real(lane_state::kReflector), Real(lane_state::kCrossed));
+        select(now.reflector > zero, Real(lane_state::kReflector), Real(lane_state::kThrough));
     const Real next = select(after > zero, Real(lane_state::kReflected), through);
     store(next_, select(leaves, next, load(next_)));
     now.state = select(leaves, select(unpolarised, next, Real(lane_state::kPolarise)), now.state);
@@ -445,7 +572,7 @@ class LanePasses : LanePhotons<Real, kDraws> {
   void reflect_at_reflector(Now& now, const Mask& here) {
     draw(here, 4.0);
     const Random random = next_numbers();
-    const LaneFours<Real> sheet = face_numbers(now, 3);
+    const LaneFours<Real> sheet = row_of(now.optics, 2);
     const Real zero(0.0), one(1.0), share = sheet.of[2];
     const Mask absorbed = random.uniform(0) >= sheet.of[1];
     const Mask mixed = share > zero, specular = mixed & (random.uniform(1) < share);

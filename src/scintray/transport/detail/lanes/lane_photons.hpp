@@ -102,7 +102,8 @@ class LanePhotons {
   /// Puts the photons back into the pool.
   /// @param has_moved   take_places() was called
   /// @param at_surface  take_numbers() was
-  void put_back(const Moving& moving, bool has_moved, bool at_surface) {
+  /// @param has_entered  some photon is in another region than before
+  void put_back(const Moving& moving, bool has_moved, bool at_surface, bool has_entered) {
     const Vector direction = moving.light.direction, polarisation = moving.light.polarisation;
     put_row(offsetof(LanePhoton, direction), {{direction.x, direction.y, direction.z, load(time_ns_)}});
     put_row(offsetof(LanePhoton, polarisation),
@@ -112,6 +113,10 @@ class LanePhotons {
       put_row(offsetof(LanePhoton, position), {{position.x, position.y, position.z, load(path_mm_)}});
       put_row(offsetof(LanePhoton, interactions),
               {{load(interactions_), load(segments_), load(plane_), load(cos_before_)}});
+    }
+    if (has_entered) {
+      const Vector centre = load(centre_);
+      put_row(offsetof(LanePhoton, centre), {{centre.x, centre.y, centre.z, load(attenuation_per_mm_)}});
     }
     if (at_surface) {
       put_row(offsetof(LanePhoton, index), {{load(index_), load(group_index_), moving.side, load(next_)}});

@@ -18,22 +18,25 @@ namespace scintray::transport {
 namespace lane_state {
 inline constexpr double kEmpty = 0.0;
 inline constexpr double kPropagate = 1.0;  ///< along its direction to the next plane
-inline constexpr double kSmooth = 2.0;     ///< Fresnel's equations at the mean normal
-inline constexpr double kFacets = 3.0;     ///< a facet is drawn, then Fresnel's equations
-inline constexpr double kTable = 4.0;      ///< a surface table
-inline constexpr double kReflector = 5.0;  ///< the reflector behind the microsurface
-inline constexpr double kPolarise = 6.0;   ///< a polarisation is drawn; LanePool::next follows
-inline constexpr double kReflected = 7.0;  ///< back in its region; kPropagate follows at once
+inline constexpr double kAcross = 2.0;     ///< across a thin gap, from the face that it is on
+inline constexpr double kSmooth = 3.0;     ///< Fresnel's equations at the mean normal
+inline constexpr double kFacets = 4.0;     ///< a facet is drawn, then Fresnel's equations
+inline constexpr double kTable = 5.0;      ///< a surface table
+inline constexpr double kReflector = 6.0;  ///< the reflector behind the microsurface
+inline constexpr double kPolarise = 7.0;   ///< a polarisation is drawn; LanePool::next follows
+// Two that are left at once.
+inline constexpr double kReflected = 8.0;  ///< back in its region
+inline constexpr double kThrough = 9.0;    ///< through its surface into the region behind
 // From here on the photon waits for the scalar code.
 inline constexpr double kFirstWaiting = 16.0;
 inline constexpr double kBulk = 16.0;      ///< an event in the medium; the photon is where its segment began
 inline constexpr double kBoundary = 17.0;  ///< at a boundary whose surface is not one for lanes
-inline constexpr double kUnclear = 18.0;   ///< the next plane leads to several regions; as for kBulk
-inline constexpr double kCrossed = 19.0;   ///< through its surface into the region behind
+inline constexpr double kUnclear = 18.0;   ///< the next face is not known to lanes; as for kBulk
+inline constexpr double kCrossed = 19.0;   ///< through its surface into a region that is not in lanes
 inline constexpr double kAbsorbed = 20.0;  ///< by the surface
 inline constexpr double kCut = 21.0;       ///< the limits are reached
 // As places in LanePool::in_state: those in which photons are between passes, and those that wait.
-inline constexpr std::size_t kFirstStage = 1, kEndOfStages = 7, kFirstOfWaiting = 16, kCount = 22;
+inline constexpr std::size_t kFirstStage = 1, kEndOfStages = 8, kFirstOfWaiting = 16, kCount = 22;
 }  // namespace lane_state
 
 /// One or two parallel planes around a region, in the region's frame (mm). Number 2 i and 2 i + 1 of its
@@ -53,11 +56,8 @@ struct LaneTable {
   bool absorbs = false;
 };
 
-/// A plane around a region, with the surface there, for one wavelength. Four numbers are loaded at once.
-struct LaneFace {
-  double normal[3];  ///< of unit length, out of the region
-  double kind;       ///< kSmooth, kFacets, kTable, kReflector; kBoundary, kUnclear: for the scalar code
-
+/// The surface at a face and what is behind it, for one wavelength. Four numbers are loaded at once.
+struct alignas(32) LaneFaceOptics {
   double index_behind;  ///< of the medium behind the microsurface
   double least_sin2;    ///< of a smooth surface: sine squared from which light is totally reflected
   double counted;       ///< 1 when reaching it counts as an interaction
@@ -75,13 +75,56 @@ struct LaneFace {
   double specular_share;  ///< of the reflector
   const LaneTable* table = nullptr;
 };
-static_assert(sizeof(LaneFace) == 128);
+static_assert(sizeof(LaneFaceOptics) == 96);
 
-/// Planes and faces of the region of a photon.
+/// A medium at one wavelength. The four numbers are loaded at once.
+struct alignas(32) LaneMedium {
+  double index, group_index;
+  double attenuation_per_mm;  ///< absorption and scattering together
+  double padding = 0.0;
+};
+
+/// All that depends on the wavelength: records of four numbers, those of media and after them those of faces,
+/// found by their places in this list.
+struct alignas(32) LaneRecord {
+  double of[4];
+};
+static_assert(sizeof(LaneMedium) == sizeof(LaneRecord) && sizeof(LaneFaceOptics) == 3 * sizeof(LaneRecord));
+
+/// A gap, as scene::ThinGap, in the region's frame (mm). Four numbers are loaded at once.
+struct alignas(32) LaneGap {
+  double normal[3], offset_mm;  ///< of the face beyond
+  double x[3], low_x;
+  double y[3], low_y;
+  double high_x, high_y, beyond;  ///< number of the face beyond
+  double padding = 0.0;
+};
+
+struct LaneRegion;
+
+/// A flat face of a region. Four numbers are loaded at once.
+struct alignas(32) LaneFace {
+  double normal[3];  ///< of unit length, out of the region
+  double kind;       ///< kSmooth, kFacets, kTable, kReflector; kBoundary, kUnclear: for the scalar code
+
+  double behind_centre[3];  ///< LaneRegion::centre of the region behind
+  double behind_face;       ///< number of this face there
+
+  const LaneRegion* behind = nullptr;  ///< null: light that crosses the face leaves the lanes
+  const LaneGap* gaps = nullptr;       ///< in front of the face
+  std::size_t gap_count = 0;
+  std::size_t optics = 0;  ///< place of its LaneFaceOptics in LanePhoton::optics
+};
+static_assert(sizeof(LaneFace) == 96);
+
+/// A region: bounded by planes, or one in which photons cross gaps.
 struct LaneRegion {
-  const PlanePair* planes = nullptr;
-  const LaneFace* faces = nullptr;  ///< two per PlanePair
-  std::size_t count = 0;            ///< of planes
+  const PlanePair* planes = nullptr;  ///< not null where photons cross gaps either
+  const LaneFace* faces = nullptr;    ///< two per PlanePair; where photons cross gaps those at gaps
+  std::uint32_t count = 0;            ///< of planes
+  std::uint32_t has_gaps = 0;         ///< 1: photons cross gaps
+  std::uint32_t number = 0;           ///< scene::Scene::regions
+  std::uint32_t medium = 0;           ///< place of its LaneMedium in LanePhoton::optics
 };
 
 /// A photon of the pool. Rows of four numbers are loaded and stored at once.
@@ -94,16 +137,16 @@ struct alignas(64) LanePhoton {
   double direction[3], time_ns;
   double polarisation[3], depth_left;
   double interactions, segments;  ///< whole numbers; segments since the photon was entered
-  double plane;                   ///< the last one reached
+  double plane;                   ///< number of the face that was last reached
   double cos_before;              ///< |cosine| to the normal of the plane, on arrival
   double centre[3];               ///< origin of the region's frame
-  double attenuation_per_mm;      ///< of the region, as the indices
+  double attenuation_per_mm;      ///< of the region's medium, as the indices
   double index, group_index;
   double side;                       ///< at a microsurface: 1 in the photon's region, -1 beyond
   double next;                       ///< state after kPolarise
   std::uint64_t drawn, next_block;   ///< numbers used, and Philox's first counter: the next block to be drawn
   std::uint64_t key[2], counter[3];  ///< Philox's key, and its other counters
-  std::uint64_t padding;
+  const LaneRecord* optics;
   std::uint64_t numbers[kNumbers + 4];
   LaneRegion region;
 };
@@ -117,6 +160,7 @@ struct LanePool {
   std::uint64_t in_state[lane_state::kCount];  ///< a bit for each photon
 
   double most_interactions, most_time_ns;  ///< limits as of PropagationLimits
+  bool has_gaps;                           ///< some region has
 };
 
 /// Moves the photons of the pool until some wait for the scalar code, exactly as step() moves them one by

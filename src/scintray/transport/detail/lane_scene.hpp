@@ -1,0 +1,86 @@
+#pragma once
+/// The regions of a scene in which photons stay in the lanes of lanes/lane_pool.hpp, as the lanes need them.
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "scintray/optics/lane_surface.hpp"
+#include "scintray/scene/scene.hpp"
+#include "scintray/transport/detail/lanes/lane_pool.hpp"
+#include "scintray/transport/lane_plan.hpp"
+
+namespace scintray::transport {
+
+/// Planes, gaps and faces of the regions of LaneKind::surfaces. What depends on the wavelength is apart, as
+/// photons of many wavelengths share the faces.
+class LaneScene {
+ public:
+  LaneScene(const scene::Scene& scene, const LaneKinds& kinds);
+
+  const LaneRegion& region(core::RegionId id) const { return regions_[id].region; }
+  /// Whether some region has gaps.
+  bool has_gaps() const { return has_gaps_; }
+  /// Number of the face that a photon in a region with thin gaps is on; nothing where there is no gap in
+  /// front of it.
+  std::optional<std::uint32_t> face_at_gap(const source::Photon& photon) const;
+  /// A triangle on a face of a region's boundary.
+  std::uint32_t triangle(core::RegionId region, std::size_t face) const {
+    return shapes_[scene_.regions[region].accelerator].triangles[face];
+  }
+
+  /// What depends on the wavelength.
+  struct AtWavelength {
+    double wavelength_nm = 0.0;
+    std::vector<LaneRecord> records;
+  };
+  void set_wavelength(double wavelength_nm, AtWavelength& to) const;
+
+ private:
+  /// Planes or gaps around regions of one shape.
+  struct Shape {
+    std::vector<PlanePair> planes;         ///< one without a plane where there are gaps
+    std::vector<LaneGap> gaps;
+    std::vector<std::uint32_t> triangles;  ///< of each face; two per PlanePair
+    std::vector<bool> mixed;               ///< likewise: the face leads to several regions
+    std::vector<scene::ThinGaps::Range> gaps_of;  ///< likewise, of `gaps`
+    std::map<std::uint32_t, std::uint32_t> face_of;  ///< at gaps, by the first of its gaps or its triangle
+  };
+  struct Region {
+    LaneRegion region;
+    std::vector<LaneFace> faces;
+  };
+  /// Faces that have the same surface between the same media.
+  struct AlikeFaces {
+    scene::BoundaryLink link;  ///< of one of them
+    core::MediumId here;
+    optics::LaneSurface surface;
+    const LaneTable* tables = nullptr;  ///< of a table: the first of tables_of()
+  };
+
+  static void add_planes(const scene::Boundary& boundary, Shape& shape);
+  static void add_gaps(const scene::Accelerator& accelerator, Shape& shape);
+  /// Number of the face of a triangle, at gaps.
+  static std::optional<std::uint32_t> known_face(const scene::ThinGaps& gaps, const Shape& shape,
+                                                 std::uint32_t triangle);
+  const Shape& shape_of(const scene::Region& region);
+  void make_faces(core::RegionId id);
+  LaneFace face(const scene::Region& region, const Shape& shape, std::uint32_t number);
+  /// Number of the faces alike among those of LaneOptics.
+  std::size_t alike(const scene::BoundaryLink& link, core::MediumId here, const optics::LaneSurface& surface);
+  /// Sets what is behind the faces of a region.
+  void link_faces(core::RegionId id, const LaneKinds& kinds);
+  /// Of a table, from each of its wavelengths to the next.
+  const LaneTable* tables_of(const optics::SurfaceTable& table);
+
+  const scene::Scene& scene_;
+  core::IdVector<core::AcceleratorId, Shape> shapes_;  ///< without triangles: not made
+  core::IdVector<core::RegionId, Region> regions_;
+  bool has_gaps_ = false;
+  std::vector<AlikeFaces> alike_;
+  std::vector<core::MediumId> media_;
+  std::map<const optics::SurfaceTable*, std::vector<LaneTable>> tables_;
+};
+
+}  // namespace scintray::transport
