@@ -28,19 +28,40 @@ inline bool touches_birefringent(const Scene& scene, const Interface& interface)
   return birefringent(interface.back) || birefringent(interface.front);
 }
 
-/// The surface at a boundary triangle's interface; of a reflector from behind the reflector
-/// alone. Nothing where photons are scattered one by one: dry contacts, tables from behind, surfaces that are not for lanes, all next to a birefringent
-/// medium, and all where phases are kept.
+/// The surface that absorbs light which leaves a region through one of its boundary's triangles, where that
+/// is one for lanes: in a dry contact the reflector of the other part.
+inline core::SurfaceId absorbing_surface(const Scene& scene, const BoundaryLink& link) {
+  const Interface& interface = scene.interfaces[link.interface];
+  const LinkSurface first = first_surface(interface, link.from_back);
+  if (!interface.gap_medium.has_value() || scene.surfaces[first.id].reflector) return first.id;
+  return first.id == interface.back_surface ? interface.front_surface : interface.back_surface;
+}
+
+/// The surface at a boundary triangle's interface. Of a reflector from behind the reflector alone; of a dry
+/// contact with one the surface of this region's part, the gap, and the reflector. Nothing where photons are
+/// scattered one by one: other dry contacts, tables from behind, surfaces that are not for lanes, all next to
+/// a birefringent medium, and all where phases are kept.
 inline std::optional<optics::LaneSurface> lane_surface_at(const Scene& scene, const BoundaryLink& link) {
   const Interface& interface = scene.interfaces[link.interface];
-  if (scene.keeps_phases || interface.gap_medium.has_value() || touches_birefringent(scene, interface))
-    return std::nullopt;
+  if (scene.keeps_phases || touches_birefringent(scene, interface)) return std::nullopt;
   const LinkSurface at = first_surface(interface, link.from_back);
   std::optional<optics::LaneSurface> surface = optics::lane_surface(scene.surfaces[at.id]);
-  if (!surface || at.own) return surface;
+  if (!surface) return std::nullopt;
+  if (interface.gap_medium.has_value() && !surface->reflector) {
+    const core::SurfaceId beyond = absorbing_surface(scene, link);
+    if (!at.own || !beyond.has_value() || (surface->table && surface->table->absorbs())) return std::nullopt;
+    const std::optional<optics::LaneSurface> other = optics::lane_surface(scene.surfaces[beyond]);
+    if (!other || !other->reflector) return std::nullopt;
+    surface->reflector = other->reflector;
+    return surface;
+  }
+  if (at.own) return surface;
   if (surface->table) return std::nullopt;
-  if (surface->reflector) return optics::LaneSurface{optics::LaneSurface::Micro::painted, nullptr, nullptr, surface->reflector};
-  return surface;
+  if (!surface->reflector) return surface;
+  optics::LaneSurface sheet;
+  sheet.micro = optics::LaneSurface::Micro::painted;
+  sheet.reflector = surface->reflector;
+  return sheet;
 }
 
 /// Shares of the area of a region's boundary.

@@ -24,26 +24,40 @@ LaneKind kind_by_itself(const scene::Scene& scene, const scene::Region& region) 
   return surfaces ? LaneKind::surfaces : LaneKind::none;
 }
 
-bool goes_on_in_lanes(const scene::Scene& scene, const scene::BoundaryLink& link, const LaneKinds& kinds) {
+/// Ways of light that reaches a boundary in lanes.
+enum class InLanes {
+  leaves,
+  returns,  ///< by a rough face or a reflector, the most of it
+  crosses,  ///< it may go on in the next region
+};
+
+InLanes in_lanes_at(const scene::Scene& scene, const scene::BoundaryLink& link, const LaneKinds& kinds) {
   const std::optional<optics::LaneSurface> surface = scene::lane_surface_at(scene, link);
-  if (!surface) return false;
-  if (surface->reflector || surface->micro != optics::LaneSurface::Micro::smooth) return true;
+  if (!surface) return InLanes::leaves;
+  if (surface->reflector) return InLanes::returns;
   const scene::Interface& interface = scene.interfaces[link.interface];
-  return kinds[link.from_back ? interface.front : interface.back] == LaneKind::surfaces &&
-         !reaches_sensor(scene, interface, link.from_back);
+  if (kinds[link.from_back ? interface.front : interface.back] == LaneKind::surfaces &&
+      !reaches_sensor(scene, interface, link.from_back))
+    return InLanes::crosses;
+  return surface->micro == optics::LaneSurface::Micro::smooth ? InLanes::leaves : InLanes::returns;
 }
 
-/// Share of a region's boundary from which light goes on in lanes: into regions of LaneKind::surfaces, or back
-/// from a reflector.
-double share_in_lanes(const scene::Scene& scene, const scene::Region& region, const LaneKinds& kinds) {
+/// Whether light that is in a region stays in lanes for long: from most of the boundary. Where there are thin
+/// gaps it has to come in through some of it as well.
+bool stays_in_lanes(const scene::Scene& scene, const scene::Region& region, const LaneKinds& kinds) {
   const scene::BoundaryLink* const links = scene.links_of(region);
-  double all = 0.0, in_lanes = 0.0;
-  for (std::uint32_t i = 0; i < scene.accelerator(region).size(); ++i) {
-    const double area = scene::area_of(scene.accelerator(region).triangle(i));
+  const scene::Boundary& boundary = scene.accelerator(region).boundary();
+  const auto& mixed = boundary.plane_triangles;  // of planes that lead to several regions
+  double all = 0.0, returns = 0.0, crosses = 0.0;
+  for (std::uint32_t i = 0; i < boundary.size(); ++i) {
+    const double area = scene::area_of(boundary.triangle(i));
     all += area;
-    if (goes_on_in_lanes(scene, links[i], kinds)) in_lanes += area;
+    if (std::find(mixed.begin(), mixed.end(), i) != mixed.end()) continue;
+    const InLanes way = in_lanes_at(scene, links[i], kinds);
+    if (way == InLanes::returns) returns += area;
+    if (way == InLanes::crosses) crosses += area;
   }
-  return in_lanes / all;
+  return returns + crosses > 0.6 * all && (crosses > 0.0 || !region.thin_gaps);
 }
 
 }  // namespace
@@ -63,7 +77,7 @@ LaneKinds lane_kinds(const scene::Scene& scene, int lane_width) {
   });
   const LaneKinds candidates = kinds;
   each([&](core::RegionId id, const scene::Region& region) {
-    if (kinds[id] == LaneKind::surfaces && share_in_lanes(scene, region, candidates) <= 0.5)
+    if (kinds[id] == LaneKind::surfaces && !stays_in_lanes(scene, region, candidates))
       kinds[id] = LaneKind::none;
   });
   return kinds;

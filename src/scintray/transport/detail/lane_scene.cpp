@@ -66,6 +66,8 @@ bool are_alike(const scene::Scene& scene, const scene::BoundaryLink& a, const sc
   const scene::LinkSurface first = scene::first_surface(at_a, a.from_back),
                            other = scene::first_surface(at_b, b.from_back);
   return first.id == other.id && first.own == other.own && at_a.plain == at_b.plain &&
+         at_a.gap_medium == at_b.gap_medium &&
+         scene::absorbing_surface(scene, a) == scene::absorbing_surface(scene, b) &&
          a.smooth_to == b.smooth_to &&
          scene.regions[behind(scene, a)].medium == scene.regions[behind(scene, b)].medium;
 }
@@ -284,8 +286,10 @@ void LaneScene::set_wavelength(double wavelength_nm, AtWavelength& to) const {
     }
     if (alike.surface.reflector) {
       const optics::Surface& stack = scene_.surfaces[scene::first_surface(interface, alike.link.from_back).id];
-      const bool painted = alike.surface.micro == Micro::painted;
-      at.index_behind = painted ? here : stack.gap_index(wavelength_nm);
+      if (alike.surface.micro == Micro::painted)
+        at.index_behind = here;
+      else if (stack.reflector)
+        at.index_behind = stack.gap_index(wavelength_nm);
       at.reflectance = alike.surface.reflector->reflectance(wavelength_nm);
       at.reflector = 1.0;
       at.specular_share = alike.surface.reflector->specular_share;

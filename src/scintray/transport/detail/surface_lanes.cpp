@@ -123,8 +123,7 @@ Step SurfaceLanes::step_at_end(const Left& left, source::Photon& photon, core::R
   if (left.waiting_as == lane_state::kCrossed) return cross_boundary(scene_, at, photon);
   if (left.waiting_as == lane_state::kAbsorbed) {
     const scene::BoundaryLink& link = scene_.link(scene_.regions[photon.region], at.triangle);
-    const scene::Interface& interface = scene_.interfaces[link.interface];
-    return absorb_at_boundary(scene_, at, scene::first_surface(interface, link.from_back).id, photon);
+    return absorb_at_boundary(scene_, at, scene::absorbing_surface(scene_, link), photon);
   }
   propagation.end = PropagationEnd::boundary;
   propagation.triangle = at.triangle;

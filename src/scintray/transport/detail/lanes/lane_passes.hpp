@@ -114,7 +114,7 @@ class LanePasses : LanePhotons<Real, kDraws> {
         propagate(now, here);
         continue;
       }
-      if (const Mask here = now.state == Real(lane_state::kAcross); is_time(here)) {
+      if (const Mask here = now.state == Real(lane_state::kAcross); pool_.has_gaps && is_time(here)) {
         if (!has_moved) take_places();
         has_moved = true;
         cross_gap(now, here);

@@ -123,16 +123,10 @@ class LanePhotons {
       put_row(offsetof(LanePhoton, drawn), {{number_of(load(drawn_)), number_of(load(next_block_)),
                                              number_of(load(key_[0])), number_of(load(key_[1]))}});
     }
-    for (std::size_t state = lane_state::kFirstStage; state < lane_state::kEndOfStages; ++state)
-      pool_.in_state[state] |= places_of(moving.state == Real(static_cast<double>(state)));
-    const Mask waiting = moving.state >= Real(lane_state::kFirstWaiting);
-    if (!any(waiting)) return;
-    alignas(64) Numbers states;
-    store(states, moving.state);
-    for (unsigned lanes = lanes_of(waiting); lanes != 0; lanes &= lanes - 1) {
-      const auto lane = static_cast<std::size_t>(__builtin_ctz(lanes));
-      pool_.in_state[static_cast<std::size_t>(states[lane])] |= std::uint64_t{1} << place_[lane];
-    }
+    alignas(64) Counts states;
+    store(states, bits_of(moving.state + Real(0x1.0p52)));
+    for (std::size_t lane = 0; lane < kWidth; ++lane)
+      pool_.in_state[static_cast<std::uint32_t>(states[lane])] |= bit_[lane];
   }
 
   /// Draws a block of random numbers for each photon of `draws` with fewer than `needed`, at most four, left.
