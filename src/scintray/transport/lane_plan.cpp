@@ -75,11 +75,15 @@ LaneKinds lane_kinds(const scene::Scene& scene, int lane_width) {
     kinds[id] = kind_by_itself(scene, region);
     if (kinds[id] == LaneKind::surfaces && !surfaces) kinds[id] = LaneKind::none;
   });
-  const LaneKinds candidates = kinds;
-  each([&](core::RegionId id, const scene::Region& region) {
-    if (kinds[id] == LaneKind::surfaces && !stays_in_lanes(scene, region, candidates))
+  // Each region that is left out may be one that others need.
+  for (bool changed = true; changed;) {
+    changed = false;
+    each([&](core::RegionId id, const scene::Region& region) {
+      if (kinds[id] != LaneKind::surfaces || stays_in_lanes(scene, region, kinds)) return;
       kinds[id] = LaneKind::none;
-  });
+      changed = true;
+    });
+  }
   return kinds;
 }
 

@@ -51,9 +51,6 @@ double least_total_sin2(double n1, double n2) {
   return least;
 }
 
-/// A part without planes, for regions of another kind.
-constexpr PlanePair kNoPlanes{};
-
 core::RegionId behind(const scene::Scene& scene, const scene::BoundaryLink& link) {
   const scene::Interface& interface = scene.interfaces[link.interface];
   return link.from_back ? interface.front : interface.back;
@@ -83,7 +80,29 @@ LaneScene::LaneScene(const scene::Scene& scene, const LaneKinds& kinds)
       if (kinds[core::RegionId(i)] == LaneKind::surfaces) act(core::RegionId(i));
   };
   each([&](core::RegionId id) { make_faces(id); });
-  each([&](core::RegionId id) { link_faces(id, kinds); });
+  each([&](core::RegionId id) {
+    link_faces(id, kinds);
+    LaneRegion& region = regions_[id].region;
+    if (region.planes != nullptr) return;
+    region.planes = any_planes().planes;
+    region.count = any_planes().count;
+  });
+  if (!has_one_wavelength()) return;
+  AtWavelength at;
+  set_wavelength(scene.low_nm, at);
+  each([&](core::RegionId id) {
+    for (LaneFace& face : regions_[id].faces)
+      std::memcpy(&face.at_one.index_behind, &at.records[face.optics], sizeof(face.at_one));
+  });
+}
+
+LaneRegion LaneScene::any_planes() const {
+  static constexpr PlanePair kPlanes{};
+  static constexpr LaneFace kFaces[2] = {};
+  LaneRegion region = any_planes_;
+  if (region.planes == nullptr) region.planes = &kPlanes, region.count = 1;
+  region.faces = kFaces;
+  return region;
 }
 
 const LaneScene::Shape& LaneScene::shape_of(const scene::Region& region) {
@@ -116,7 +135,6 @@ void LaneScene::add_planes(const scene::Boundary& boundary, Shape& shape) {
 
 void LaneScene::add_gaps(const scene::Accelerator& accelerator, Shape& shape) {
   const scene::ThinGaps& thin = accelerator.boundary().thin_gaps;
-  shape.planes.push_back(kNoPlanes);
   const auto add = [&](std::uint32_t triangle) {
     if (const auto known = known_face(thin, shape, triangle)) return *known;
     const auto number = static_cast<std::uint32_t>(shape.triangles.size());
@@ -172,9 +190,12 @@ void LaneScene::make_faces(core::RegionId id) {
   Region& made = regions_[id];
   for (std::uint32_t number = 0; number < shape.triangles.size(); ++number)
     made.faces.push_back(face(region, shape, number));
-  made.region.planes = shape.planes.data();
   made.region.faces = made.faces.data();
-  made.region.count = static_cast<std::uint32_t>(shape.planes.size());
+  if (!shape.planes.empty()) {
+    made.region.planes = shape.planes.data();
+    made.region.count = static_cast<std::uint32_t>(shape.planes.size());
+    if (any_planes_.planes == nullptr) any_planes_ = made.region;
+  }
   has_gaps_ = has_gaps_ || region.thin_gaps;
   made.region.has_gaps = region.thin_gaps ? 1 : 0;
   made.region.number = static_cast<std::uint32_t>(id.index());

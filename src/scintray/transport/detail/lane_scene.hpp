@@ -20,8 +20,12 @@ class LaneScene {
   LaneScene(const scene::Scene& scene, const LaneKinds& kinds);
 
   const LaneRegion& region(core::RegionId id) const { return regions_[id].region; }
+  /// Planes of a region, and faces, for lanes in which neither is used.
+  LaneRegion any_planes() const;
   /// Whether some region has gaps.
   bool has_gaps() const { return has_gaps_; }
+  /// Whether all light has one wavelength.
+  bool has_one_wavelength() const { return scene_.low_nm == scene_.high_nm; }
   /// Number of the face that a photon in a region with thin gaps is on; nothing where there is no gap in
   /// front of it.
   std::optional<std::uint32_t> face_at_gap(const source::Photon& photon) const;
@@ -77,6 +81,7 @@ class LaneScene {
   const scene::Scene& scene_;
   core::IdVector<core::AcceleratorId, Shape> shapes_;  ///< without triangles: not made
   core::IdVector<core::RegionId, Region> regions_;
+  LaneRegion any_planes_;
   bool has_gaps_ = false;
   std::vector<AlikeFaces> alike_;
   std::vector<core::MediumId> media_;

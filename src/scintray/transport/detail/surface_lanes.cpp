@@ -19,16 +19,7 @@ Step reflected_in_lanes() {
   return step;
 }
 
-/// A region without planes, for lanes that have no photon.
-LaneRegion empty_region() {
-  static const PlanePair planes{};
-  static const LaneFace faces[2] = {};
-  LaneRegion region;
-  region.planes = &planes;
-  region.faces = faces;
-  region.count = 1;
-  return region;
-}
+/// For lanes that have no photon.
 const LaneRecord* empty_optics() {
   static const LaneRecord records[3] = {};
   return records;
@@ -45,11 +36,13 @@ SurfaceLanes::SurfaceLanes(const scene::Scene& scene, const LaneScene& lanes,
       own_(LanePool::kPhotons),
       pool_{} {
   for (LanePhoton& photon : pool_.photons) {
-    photon.region = empty_region();
+    photon.region = lanes.any_planes();
     photon.optics = empty_optics();
   }
   pool_.most_interactions = static_cast<double>(limits.interactions);
   pool_.most_time_ns = limits.time_ns;
+  pool_.one_wavelength = lanes.has_one_wavelength();
+  if (pool_.one_wavelength) lanes.set_wavelength(scene.low_nm, at_first_);
   pool_.has_gaps = lane_scene_.has_gaps();
   for (std::uint32_t slot = LanePool::kPhotons; slot-- > 0;) free_.push_back(slot);
 }

@@ -22,6 +22,7 @@ class SurfaceLanes {
 
   /// Whether a photon in a region of LaneKind::surfaces can be entered.
   bool takes(const source::Photon& photon) const {
+    if (pool_.one_wavelength && photon.wavelength_nm != at_first_.wavelength_nm) return false;
     return !scene_.regions[photon.region].thin_gaps || lane_scene_.face_at_gap(photon).has_value();
   }
   bool has_room() const { return !free_.empty(); }

@@ -16,7 +16,8 @@
 namespace scintray::transport {
 namespace {
 
-template <typename Real, LaneDraws kDraws>
+/// @tparam kOneWavelength  LanePool::one_wavelength
+template <typename Real, LaneDraws kDraws, bool kOneWavelength>
 class LanePasses : LanePhotons<Real, kDraws> {
   using Photons = LanePhotons<Real, kDraws>;
   using Photons::attenuation_per_mm_;
@@ -93,7 +94,7 @@ class LanePasses : LanePhotons<Real, kDraws> {
     Vector normal;  ///< of the plane, out of the region
     Real kind, index_behind, least_sin2, counted, reflector;
     const double* face[kWidth];    ///< LaneFace
-    const double* optics[kWidth];  ///< LaneFaceOptics
+    const double* optics[kWidth];  ///< LaneFaceOptics; not set with one wavelength
   };
 
   /// Carries photons that are in a state through this stage and those that follow.
@@ -180,9 +181,9 @@ class LanePasses : LanePhotons<Real, kDraws> {
     for (std::size_t lane = 0; lane < kWidth; ++lane) {
       const LaneFace& face = photon_[lane]->region.faces[static_cast<std::size_t>(plane_[lane])];
       now.face[lane] = face.normal;
-      now.optics[lane] = photon_[lane]->optics[face.optics].of;
+      if constexpr (!kOneWavelength) now.optics[lane] = photon_[lane]->optics[face.optics].of;
     }
-    const LaneFours<Real> first = row_of(now.face, 0), second = row_of(now.optics, 0);
+    const LaneFours<Real> first = row_of(now.face, 0), second = optics_of(now, 0);
     now.normal = {first.of[0], first.of[1], first.of[2]};
     now.kind = first.of[3];
     now.index_behind = second.of[0];
@@ -190,7 +191,11 @@ class LanePasses : LanePhotons<Real, kDraws> {
     now.counted = second.of[2];
     now.reflector = second.of[3];
   }
-  /// Four numbers of LaneFace or LaneFaceOptics, the first, second or third.
+  /// Four numbers of LaneFaceOptics, the first, second or third.
+  static LaneFours<Real> optics_of(const Now& now, int which) {
+    return kOneWavelength ? row_of(now.face, which + 1) : row_of(now.optics, which);
+  }
+  /// Four numbers of a record of each lane.
   static LaneFours<Real> row_of(const double* const (&of)[kWidth], int which) {
     const double* at[kWidth];
     for (std::size_t lane = 0; lane < kWidth; ++lane) at[lane] = of[lane] + 4 * which;
@@ -202,15 +207,14 @@ class LanePasses : LanePhotons<Real, kDraws> {
     return *reinterpret_cast<const LaneFace*>(now.face[lane]);
   }
 
-  LaneAhead<Real> nearest_plane(const Vector& local, const Vector& direction, unsigned here) const {
+  LaneAhead<Real> nearest_plane(const Vector& local, const Vector& direction) const {
     LaneAhead<Real> nearest;
-    const LaneRegion& one = photon_[__builtin_ctz(here)]->region;
+    const LaneRegion& one = photon_[0]->region;
     bool same = true;
     std::size_t count = one.count;
-    for (std::size_t lane = 0; lane < kWidth; ++lane) {
-      // Without branches, which would be predicted wrongly.
-      const LaneRegion& region = (here >> lane & 1) != 0 ? photon_[lane]->region : one;
-      same = same & (region.planes == one.planes);
+    for (std::size_t lane = 1; lane < kWidth; ++lane) {
+      const LaneRegion& region = photon_[lane]->region;
+      same = same && region.planes == one.planes;
       count = region.count > count ? region.count : count;
     }
     if (same) {
@@ -244,7 +248,7 @@ class LanePasses : LanePhotons<Real, kDraws> {
   /// To the next plane, and through a total reflection there.
   void propagate(Now& now, const Mask& here) {
     const LaneAhead<Real> ahead =
-        nearest_plane(load(position_) - load(centre_), now.light.direction, lanes_of(here));
+        nearest_plane(load(position_) - load(centre_), now.light.direction);
     const Real zero(0.0);
     const Real distance = select(ahead.distance_mm < zero, zero, ahead.distance_mm);
     store(plane_, select(here, ahead.plane, load(plane_)));
@@ -364,7 +368,7 @@ class LanePasses : LanePhotons<Real, kDraws> {
       return false;
     }
     const Mask enters = Mask::of(entering);
-    const LaneFours<Real> there = row_of(now.face, 1);
+    const LaneFours<Real> there = row_of(now.face, 4);
     LaneFours<Real> medium;
     load_fours(media, medium);
     const auto set = [&enters](auto& to, const Real& value) { store(to, select(enters, value, load(to))); };
@@ -385,7 +389,7 @@ class LanePasses : LanePhotons<Real, kDraws> {
     Vector m = against;
     Mask pending = facets;
     if (any(facets)) {
-      const LaneFours<Real> more = row_of(now.optics, 1), last = row_of(now.optics, 2);
+      const LaneFours<Real> more = optics_of(now, 1), last = optics_of(now, 2);
       const Mask by_area = last.of[0] > Real(0.0);
       const optics::FacetNumbers<Real> numbers{more.of[0], more.of[1], more.of[2], more.of[3], by_area};
       do {
@@ -462,7 +466,9 @@ class LanePasses : LanePhotons<Real, kDraws> {
       found.interval[lane] = &kNone;
       found.several[lane] = found.absorbs[lane] = found.transmits[lane] = 0.0;
       if ((lanes >> lane & 1) == 0) continue;
-      const LaneFaceOptics& face = *reinterpret_cast<const LaneFaceOptics*>(now.optics[lane]);
+      const LaneFaceOptics& face = kOneWavelength
+                                       ? face_of(now, lane).at_one
+                                       : *reinterpret_cast<const LaneFaceOptics*>(now.optics[lane]);
       const LaneTable& table = *face.table;
       found.view[lane] = &table.view[uniform[lane] < face.to_next ? 1 : 0][side[lane] > 0.0 ? 0 : 1];
       found.interval[lane] = &optics::interval_at(*found.view[lane], slant[lane]);
@@ -572,7 +578,7 @@ class LanePasses : LanePhotons<Real, kDraws> {
   void reflect_at_reflector(Now& now, const Mask& here) {
     draw(here, 4.0);
     const Random random = next_numbers();
-    const LaneFours<Real> sheet = row_of(now.optics, 2);
+    const LaneFours<Real> sheet = optics_of(now, 2);
     const Real zero(0.0), one(1.0), share = sheet.of[2];
     const Mask absorbed = random.uniform(0) >= sheet.of[1];
     const Mask mixed = share > zero, specular = mixed & (random.uniform(1) < share);
@@ -605,6 +611,15 @@ class LanePasses : LanePhotons<Real, kDraws> {
     count_drawn(select(here, select(first, Real(1.0), Real(2.0)), Real(0.0)));
   }
 };
+
+/// Inlined, so that a profile has the time under the name of the kernel, which is known outside its file.
+template <typename Real, LaneDraws kDraws>
+[[gnu::always_inline]] inline void run_passes(LanePool& pool) {
+  if (pool.one_wavelength)
+    LanePasses<Real, kDraws, true>(pool).run();
+  else
+    LanePasses<Real, kDraws, false>(pool).run();
+}
 
 }  // namespace
 }  // namespace scintray::transport

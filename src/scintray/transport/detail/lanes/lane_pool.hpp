@@ -103,9 +103,11 @@ struct alignas(32) LaneGap {
 struct LaneRegion;
 
 /// A flat face of a region. Four numbers are loaded at once.
-struct alignas(32) LaneFace {
+struct alignas(64) LaneFace {
   double normal[3];  ///< of unit length, out of the region
   double kind;       ///< kSmooth, kFacets, kTable, kReflector; kBoundary, kUnclear: for the scalar code
+
+  LaneFaceOptics at_one;  ///< in a scene of one wavelength
 
   double behind_centre[3];  ///< LaneRegion::centre of the region behind
   double behind_face;       ///< number of this face there
@@ -113,13 +115,13 @@ struct alignas(32) LaneFace {
   const LaneRegion* behind = nullptr;  ///< null: light that crosses the face leaves the lanes
   const LaneGap* gaps = nullptr;       ///< in front of the face
   std::size_t gap_count = 0;
-  std::size_t optics = 0;  ///< place of its LaneFaceOptics in LanePhoton::optics
+  std::size_t optics = 0;  ///< in another scene: place of its LaneFaceOptics in LanePhoton::optics
 };
-static_assert(sizeof(LaneFace) == 96);
+static_assert(sizeof(LaneFace) == 192);
 
 /// A region: bounded by planes, or one in which photons cross gaps.
 struct LaneRegion {
-  const PlanePair* planes = nullptr;  ///< not null where photons cross gaps either
+  const PlanePair* planes = nullptr;  ///< where photons cross gaps any
   const LaneFace* faces = nullptr;    ///< two per PlanePair; where photons cross gaps those at gaps
   std::uint32_t count = 0;            ///< of planes
   std::uint32_t has_gaps = 0;         ///< 1: photons cross gaps
@@ -161,6 +163,7 @@ struct LanePool {
 
   double most_interactions, most_time_ns;  ///< limits as of PropagationLimits
   bool has_gaps;                           ///< some region has
+  bool one_wavelength;                     ///< all photons have it
 };
 
 /// Moves the photons of the pool until some wait for the scalar code, exactly as step() moves them one by

@@ -15,7 +15,7 @@ void propagate_lanes_in_body_4(const LaneBody& body, const LaneLimits& limits, L
 }
 
 void run_lanes_4(LanePool& pool) {
-  LanePasses<core::LaneRealPair<xsimd::avx2>, LaneDraws::one_by_one>(pool).run();
+  run_passes<core::LaneRealPair<xsimd::avx2>, LaneDraws::one_by_one>(pool);
 }
 
 }  // namespace scintray::transport

@@ -15,7 +15,7 @@ void propagate_lanes_in_body_8(const LaneBody& body, const LaneLimits& limits, L
 }
 
 void run_lanes_8(LanePool& pool) {
-  LanePasses<core::LaneReal<xsimd::avx512f>, LaneDraws::in_lanes>(pool).run();
+  run_passes<core::LaneReal<xsimd::avx512f>, LaneDraws::in_lanes>(pool);
 }
 
 }  // namespace scintray::transport
