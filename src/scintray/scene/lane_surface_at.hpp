@@ -81,8 +81,6 @@ inline double totally_reflected(const SceneOptics& optics, core::MediumId here, 
   return std::max(0.0, 1.0 - ratio * ratio);
 }
 
-
-
 inline LaneShares lane_shares(const Scene& scene, const Region& region) {
   const Accelerator& accelerator = scene.accelerator(region);
   const BoundaryLink* const links = scene.links_of(region);

@@ -20,7 +20,8 @@ LaneKind kind_by_itself(const scene::Scene& scene, const scene::Region& region) 
   const scene::LaneShares shares = scene::lane_shares(scene, region);
   const bool surfaces = !region.curved && shares.known > 0.5;
   // With few total reflections in a row, entering and leaving the lanes costs more than they save.
-  if (shares.smooth > 0.5 && shares.total > 0.5 && !region.thin_gaps && !std::getenv("TOG")) return LaneKind::smooth;
+  if (shares.smooth > 0.5 && shares.total > 0.5 && !region.thin_gaps && !std::getenv("TOG"))
+    return LaneKind::smooth;
   return surfaces ? LaneKind::surfaces : LaneKind::none;
 }
 
@@ -88,9 +89,7 @@ LaneKinds lane_kinds(const scene::Scene& scene, int lane_width) {
 }
 
 LanePlan::LanePlan(const scene::Scene& scene, int lane_width, LaneKinds kinds)
-    : width_(lane_width),
-      kinds_(std::move(kinds)),
-      scene_(std::make_unique<const LaneScene>(scene, kinds_)) {
+    : width_(lane_width), kinds_(std::move(kinds)), scene_(std::make_unique<const LaneScene>(scene, kinds_)) {
   const std::vector<int>& widths = core::lane_widths();
   if (std::find(widths.begin(), widths.end(), lane_width) == widths.end())
     throw core::InternalError("this processor has no lanes of width " + std::to_string(lane_width));

@@ -148,8 +148,7 @@ void link_smooth_media(Scene& scene) {
   for (Region& region : scene.regions) {
     const Accelerator& accelerator = scene.accelerator(region);
     if (scene.optics.media[region.medium].birefringent) continue;
-    if (region.rotated ||
-        !(accelerator.uses_planes() || accelerator.is_convex_body() || region.thin_gaps))
+    if (region.rotated || !(accelerator.uses_planes() || accelerator.is_convex_body() || region.thin_gaps))
       continue;
     const LaneShares shares = lane_shares(scene, region);
     region.in_lanes = shares.smooth > 0.5 || (shares.known > 0.5 && !region.curved);

@@ -85,9 +85,10 @@ class GapSearch {
     for (const std::vector<Placed>& along : by_direction()) pair(along, from);
     for (std::size_t face = 0; face < faces_.size(); ++face) {
       std::vector<Candidate>& candidates = from[face];
-      if (candidates.empty() || candidates.size() > kMostGapsOfFace) continue;
+      if (candidates.empty()) continue;
       std::stable_sort(candidates.begin(), candidates.end(),
                        [](const Candidate& a, const Candidate& b) { return a.common_mm2 > b.common_mm2; });
+      if (candidates.size() > kMostGapsOfFace) candidates.resize(kMostGapsOfFace);
       const auto begin = static_cast<std::uint32_t>(found.gaps.size());
       for (const Candidate& candidate : candidates) found.gaps.push_back(candidate.gap);
       const auto end = static_cast<std::uint32_t>(found.gaps.size());
@@ -162,20 +163,37 @@ class GapSearch {
     const Eigen::AlignedBox2d common =
         rectangle->sides.intersection(bounds_in(x, y, faces_[start], boundary_));
     if (common.isEmpty() || height > kThin * common.sizes().minCoeff()) return;
-    for (Eigen::AlignedBox2d sides : {rectangle->sides, common}) {
-      sides.min().array() += inside_;
-      sides.max().array() -= inside_;
-      if (!is_clear(*rectangle, sides, faces_[beyond], height)) continue;
+    const auto add_box = [&](const Eigen::AlignedBox2d& sides, double common_mm2) {
       from[start].push_back({{x, y, sides.min().x(), sides.max().x(), sides.min().y(), sides.max().y(),
                               faces_[beyond].triangles.front()},
-                             common.volume()});
-      return;
+                             common_mm2});
+    };
+    Eigen::AlignedBox2d in_the_way;
+    for (const Eigen::AlignedBox2d& sides : {inside(rectangle->sides), inside(common)}) {
+      in_the_way = obstacle(*rectangle, sides, faces_[beyond], height);
+      if (in_the_way.isEmpty()) return add_box(sides, common.volume());
+    }
+    // Beside it, as below a septum that ends before the crystals do.
+    for (int axis = 0; axis < 2; ++axis) {
+      for (const bool before : {true, false}) {
+        Eigen::AlignedBox2d rest = common;
+        (before ? rest.max() : rest.min())[axis] = (before ? in_the_way.min() : in_the_way.max())[axis];
+        if (rest.isEmpty() || height > kThin * rest.sizes().minCoeff()) continue;
+        const Eigen::AlignedBox2d sides = inside(rest);
+        if (obstacle(*rectangle, sides, faces_[beyond], height).isEmpty()) add_box(sides, rest.volume());
+      }
     }
   }
+  /// A rectangle that ends a little earlier.
+  Eigen::AlignedBox2d inside(Eigen::AlignedBox2d sides) const {
+    sides.min().array() += inside_;
+    sides.max().array() -= inside_;
+    return sides;
+  }
 
-  /// Whether nothing is in the box over some of a face, to a height on the region's side of it.
-  bool is_clear(const Rectangle& rectangle, const Eigen::AlignedBox2d& sides, const FlatFace& face,
-                double height) {
+  /// Bounds of the triangles that are in the box over some of a face, to a height on the region's side of it.
+  Eigen::AlignedBox2d obstacle(const Rectangle& rectangle, const Eigen::AlignedBox2d& sides,
+                               const FlatFace& face, double height) {
     if (!tree_) index_triangles();
     const core::Vec3 &x = rectangle.x, &y = rectangle.y, &z = face.normal;
     const core::Vec3 half(0.5 * sides.sizes().x(), 0.5 * sides.sizes().y(), 0.5 * height - inside_);
@@ -185,15 +203,18 @@ class GapSearch {
     contact::Box around;
     around.add(centre - reach);
     around.add(centre + reach);
-    const std::vector<std::uint32_t> near = tree_->touching(around);
-    return std::all_of(near.begin(), near.end(), [&](std::uint32_t number) {
-      BoundaryTriangle triangle = boundary_.triangle(number);
+    Eigen::AlignedBox2d bounds;
+    for (const std::uint32_t number : tree_->touching(around)) {
+      const BoundaryTriangle placed = boundary_.triangle(number);
+      BoundaryTriangle triangle = placed;
       for (core::Vec3& corner : triangle) {
         const core::Vec3 from_centre = corner - centre;
         corner = {x.dot(from_centre), y.dot(from_centre), z.dot(from_centre)};
       }
-      return apart(triangle, half);
-    });
+      if (apart(triangle, half)) continue;
+      for (const core::Vec3& corner : placed) bounds.extend(in_plane(x, y, corner));
+    }
+    return bounds;
   }
 
   void index_triangles() {

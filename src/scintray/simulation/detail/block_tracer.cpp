@@ -90,8 +90,7 @@ void BlockTracer::end_event(std::uint64_t event, TracedBlock& block) const {
 
 void BlockTracer::trace_together(std::uint64_t first, std::vector<TracedBlock>& blocks) const {
   std::unique_ptr<transport::Batch> batch = batches_.take();
-  if (!batch)
-    batch = std::make_unique<transport::Batch>(scene_, limits_of(settings_), lanes_);
+  if (!batch) batch = std::make_unique<transport::Batch>(scene_, limits_of(settings_), lanes_);
   source::EventLight light;
   ConversionDraws draws(settings_);
   std::vector<Address> photons;

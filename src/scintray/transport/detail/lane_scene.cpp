@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <new>
 
 #include "scintray/optics/facet_laws.hpp"
 #include "scintray/scene/lane_surface_at.hpp"
@@ -14,6 +15,9 @@ namespace scintray::transport {
 namespace {
 
 using Micro = optics::LaneSurface::Micro;
+
+/// A triangle that is on none of the faces at gaps.
+constexpr std::uint32_t kNotAtGaps = std::numeric_limits<std::uint32_t>::max();
 
 double state_of(Micro micro) {
   switch (micro) {
@@ -71,8 +75,7 @@ bool are_alike(const scene::Scene& scene, const scene::BoundaryLink& a, const sc
 
 }  // namespace
 
-LaneScene::LaneScene(const scene::Scene& scene, const LaneKinds& kinds)
-    : scene_(scene) {
+LaneScene::LaneScene(const scene::Scene& scene, const LaneKinds& kinds) : scene_(scene) {
   shapes_.resize(scene.accelerators.size());
   regions_.resize(scene.regions.size());
   const auto each = [&](const auto& act) {
@@ -135,19 +138,25 @@ void LaneScene::add_planes(const scene::Boundary& boundary, Shape& shape) {
 
 void LaneScene::add_gaps(const scene::Accelerator& accelerator, Shape& shape) {
   const scene::ThinGaps& thin = accelerator.boundary().thin_gaps;
+  shape.face_of.assign(thin.of_triangle.size(), kNotAtGaps);
   const auto add = [&](std::uint32_t triangle) {
-    if (const auto known = known_face(thin, shape, triangle)) return *known;
     const auto number = static_cast<std::uint32_t>(shape.triangles.size());
-    const scene::ThinGaps::Range range = thin.of_triangle[triangle];
     shape.triangles.push_back(triangle);
     shape.mixed.push_back(false);
-    shape.gaps_of.push_back(range);
-    shape.face_of[range.begin != range.end ? range.begin
-                                           : static_cast<std::uint32_t>(thin.gaps.size()) + triangle] = number;
-    return number;
+    shape.gaps_of.push_back(thin.of_triangle[triangle]);
+    return shape.face_of[triangle] = number;
   };
-  for (std::uint32_t triangle = 0; triangle < thin.of_triangle.size(); ++triangle)
-    if (thin.of_triangle[triangle].begin != thin.of_triangle[triangle].end) add(triangle);
+  // Triangles of one face have the same gaps.
+  std::map<std::uint32_t, std::uint32_t> by_gaps;
+  for (std::uint32_t triangle = 0; triangle < thin.of_triangle.size(); ++triangle) {
+    const scene::ThinGaps::Range range = thin.of_triangle[triangle];
+    if (range.begin == range.end) continue;
+    const auto known = by_gaps.find(range.begin);
+    if (known != by_gaps.end())
+      shape.face_of[triangle] = known->second;
+    else
+      by_gaps[range.begin] = add(triangle);
+  }
   for (const scene::ThinGap& gap : thin.gaps) {
     LaneGap lanes{};
     const core::Lanes plane = accelerator.plane(gap.beyond);
@@ -161,27 +170,18 @@ void LaneScene::add_gaps(const scene::Accelerator& accelerator, Shape& shape) {
     lanes.high_x = gap.high_x;
     lanes.low_y = gap.low_y;
     lanes.high_y = gap.high_y;
-    lanes.beyond = add(gap.beyond);
+    const std::uint32_t beyond = shape.face_of[gap.beyond];
+    lanes.beyond = beyond != kNotAtGaps ? beyond : add(gap.beyond);
     shape.gaps.push_back(lanes);
   }
 }
 
-std::optional<std::uint32_t> LaneScene::known_face(const scene::ThinGaps& thin, const Shape& shape,
-                                                   std::uint32_t triangle) {
-  const scene::ThinGaps::Range range = thin.of_triangle[triangle];
-  const auto known =
-      shape.face_of.find(range.begin != range.end ? range.begin
-                                                  : static_cast<std::uint32_t>(thin.gaps.size()) + triangle);
-  return known == shape.face_of.end() ? std::nullopt : std::optional(known->second);
-}
-
 std::optional<std::uint32_t> LaneScene::face_at_gap(const source::Photon& photon) const {
-  const scene::Region& region = scene_.regions[photon.region];
   if (photon.on_triangle == scene::kNoTriangle) return std::nullopt;
-  const scene::ThinGaps& thin = scene_.accelerator(region).boundary().thin_gaps;
-  const scene::ThinGaps::Range range = thin.of_triangle[photon.on_triangle];
-  if (range.begin == range.end) return std::nullopt;
-  return known_face(thin, shapes_[region.accelerator], photon.on_triangle);
+  const Shape& shape = shapes_[scene_.regions[photon.region].accelerator];
+  const std::uint32_t face = shape.face_of[photon.on_triangle];
+  if (face == kNotAtGaps || shape.gaps_of[face].begin == shape.gaps_of[face].end) return std::nullopt;
+  return face;
 }
 
 void LaneScene::make_faces(core::RegionId id) {
@@ -200,8 +200,7 @@ void LaneScene::make_faces(core::RegionId id) {
   made.region.has_gaps = region.thin_gaps ? 1 : 0;
   made.region.number = static_cast<std::uint32_t>(id.index());
   made.region.medium = static_cast<std::uint32_t>(region.medium.index());
-  if (std::find(media_.begin(), media_.end(), region.medium) == media_.end())
-    media_.push_back(region.medium);
+  if (std::find(media_.begin(), media_.end(), region.medium) == media_.end()) media_.push_back(region.medium);
 }
 
 LaneFace LaneScene::face(const scene::Region& region, const Shape& shape, std::uint32_t number) {
@@ -211,9 +210,9 @@ LaneFace LaneScene::face(const scene::Region& region, const Shape& shape, std::u
   for (int axis = 0; axis < 3; ++axis) face.normal[axis] = normal[axis];
   face.kind = lane_state::kBoundary;
   face.optics = scene_.optics.media.size();
+  static constexpr LaneGap kNoGap{};
   const scene::ThinGaps::Range gaps = shape.gaps_of[number];
-  face.gaps = shape.gaps.data() + gaps.begin;
-  face.gap_count = gaps.end - gaps.begin;
+  face.gap = gaps.begin != gaps.end ? &shape.gaps[gaps.begin] : &kNoGap;
   const scene::BoundaryLink& link = scene_.link(region, triangle);
   const std::optional<optics::LaneSurface> surface = scene::lane_surface_at(scene_, link);
   if (surface && !shape.mixed[number]) {
@@ -233,8 +232,9 @@ void LaneScene::link_faces(core::RegionId id, const LaneKinds& kinds) {
     const std::uint32_t triangle = shape.triangles[number];
     const scene::BoundaryLink& link = scene_.link(region, triangle);
     const core::RegionId next = behind(scene_, link);
-    if (kinds[next] != LaneKind::surfaces || 
-        reaches_sensor(scene_, scene_.interfaces[link.interface], link.from_back)) continue;
+    if (kinds[next] != LaneKind::surfaces ||
+        reaches_sensor(scene_, scene_.interfaces[link.interface], link.from_back))
+      continue;
     const scene::Region& there = scene_.regions[next];
     face.behind_face = 0.0;
     if (there.thin_gaps) {
@@ -253,8 +253,15 @@ void LaneScene::link_faces(core::RegionId id, const LaneKinds& kinds) {
 std::size_t LaneScene::alike(const scene::BoundaryLink& link, core::MediumId here,
                              const optics::LaneSurface& surface) {
   for (std::size_t i = 0; i < alike_.size(); ++i)
-    if (alike_[i].here == here && are_alike(scene_, alike_[i].link, link)) return scene_.optics.media.size() + 3 * (i + 1);
-  alike_.push_back({link, here, surface, surface.table ? tables_of(*surface.table) : nullptr});
+    if (alike_[i].here == here && are_alike(scene_, alike_[i].link, link))
+      return scene_.optics.media.size() + 3 * (i + 1);
+  LaneFaceOptics constant{};
+  if (surface.facets) set_facets(*surface.facets, constant);
+  if (surface.reflector) {
+    constant.reflector = 1.0;
+    constant.specular_share = surface.reflector->specular_share;
+  }
+  alike_.push_back({link, here, surface, surface.table ? tables_of(*surface.table) : nullptr, constant});
   return scene_.optics.media.size() + 3 * alike_.size();
 }
 
@@ -279,45 +286,44 @@ void LaneScene::set_wavelength(double wavelength_nm, AtWavelength& to) const {
   to.wavelength_nm = wavelength_nm;
   const std::size_t media = scene_.optics.media.size();
   to.records.resize(media + 3 * (alike_.size() + 1));
-  const auto set = [&to](std::size_t place, const auto& record) {
-    std::memcpy(&to.records[place], &record, sizeof(record));
+  // In place: a copy of what was just written would wait for it.
+  const auto place = [&to]<typename Record>(std::size_t at, const Record& record) -> Record& {
+    return *new (&to.records[at]) Record(record);
   };
   for (const core::MediumId medium : media_) {
     const optics::MediumOptics at = scene_.optics.at(medium, wavelength_nm);
-    set(medium.index(), LaneMedium{at.index, at.group_index, at.absorption_per_mm + at.scattering_per_mm});
+    LaneMedium& record = place(medium.index(), LaneMedium{});
+    record.index = at.index;
+    record.group_index = at.group_index;
+    record.attenuation_per_mm = at.absorption_per_mm + at.scattering_per_mm;
   }
-  LaneFaceOptics none{};
-  none.least_sin2 = kNoTotalReflection;
-  set(media, none);
+  place(media, LaneFaceOptics{}).least_sin2 = kNoTotalReflection;
   source::Photon light;
   light.wavelength_nm = wavelength_nm;
   for (std::size_t i = 0; i < alike_.size(); ++i) {
     const AlikeFaces& alike = alike_[i];
     const scene::Interface& interface = scene_.interfaces[alike.link.interface];
     const double here = light.optics.index = to.records[alike.here.index()].of[0];
-    LaneFaceOptics at{};
+    LaneFaceOptics& at = place(media + 3 * (i + 1), alike.constant);
     at.index_behind = index_behind(scene_, alike.link, light);
     at.counted = !interface.plain || here != at.index_behind ? 1.0 : 0.0;
     at.least_sin2 = interface.plain ? critical_sin2(scene_, alike.link.smooth_to, light) : kNoTotalReflection;
-    if (alike.surface.facets) set_facets(*alike.surface.facets, at);
     if (alike.surface.table) {
       const auto between = alike.surface.table->between_wavelengths(wavelength_nm);
       at.table = alike.tables + between.first;
       at.to_next = between.to_next ? std::max(0.0, *between.to_next) : -1.0;
     }
     if (alike.surface.reflector) {
-      const optics::Surface& stack = scene_.surfaces[scene::first_surface(interface, alike.link.from_back).id];
+      const optics::Surface& stack =
+          scene_.surfaces[scene::first_surface(interface, alike.link.from_back).id];
       if (alike.surface.micro == Micro::painted)
         at.index_behind = here;
       else if (stack.reflector)
         at.index_behind = stack.gap_index(wavelength_nm);
       at.reflectance = alike.surface.reflector->reflectance(wavelength_nm);
-      at.reflector = 1.0;
-      at.specular_share = alike.surface.reflector->specular_share;
     }
     if (!interface.plain && alike.surface.micro == Micro::smooth)
       at.least_sin2 = least_total_sin2(here, at.index_behind);
-    set(media + 3 * (i + 1), at);
   }
 }
 

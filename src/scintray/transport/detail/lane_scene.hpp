@@ -44,12 +44,12 @@ class LaneScene {
  private:
   /// Planes or gaps around regions of one shape.
   struct Shape {
-    std::vector<PlanePair> planes;         ///< one without a plane where there are gaps
+    std::vector<PlanePair> planes;  ///< one without a plane where there are gaps
     std::vector<LaneGap> gaps;
-    std::vector<std::uint32_t> triangles;  ///< of each face; two per PlanePair
-    std::vector<bool> mixed;               ///< likewise: the face leads to several regions
+    std::vector<std::uint32_t> triangles;         ///< of each face; two per PlanePair
+    std::vector<bool> mixed;                      ///< likewise: the face leads to several regions
     std::vector<scene::ThinGaps::Range> gaps_of;  ///< likewise, of `gaps`
-    std::map<std::uint32_t, std::uint32_t> face_of;  ///< at gaps, by the first of its gaps or its triangle
+    std::vector<std::uint32_t> face_of;           ///< at gaps, by triangle
   };
   struct Region {
     LaneRegion region;
@@ -61,13 +61,11 @@ class LaneScene {
     core::MediumId here;
     optics::LaneSurface surface;
     const LaneTable* tables = nullptr;  ///< of a table: the first of tables_of()
+    LaneFaceOptics constant;            ///< what does not depend on the wavelength; the rest is 0
   };
 
   static void add_planes(const scene::Boundary& boundary, Shape& shape);
   static void add_gaps(const scene::Accelerator& accelerator, Shape& shape);
-  /// Number of the face of a triangle, at gaps.
-  static std::optional<std::uint32_t> known_face(const scene::ThinGaps& gaps, const Shape& shape,
-                                                 std::uint32_t triangle);
   const Shape& shape_of(const scene::Region& region);
   void make_faces(core::RegionId id);
   LaneFace face(const scene::Region& region, const Shape& shape, std::uint32_t number);

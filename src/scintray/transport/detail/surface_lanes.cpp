@@ -27,14 +27,9 @@ const LaneRecord* empty_optics() {
 
 }  // namespace
 
-SurfaceLanes::SurfaceLanes(const scene::Scene& scene, const LaneScene& lanes,
-                           const PropagationLimits& limits, RunLanes kernel)
-    : scene_(scene),
-      limits_(limits),
-      run_(kernel),
-      lane_scene_(lanes),
-      own_(LanePool::kPhotons),
-      pool_{} {
+SurfaceLanes::SurfaceLanes(const scene::Scene& scene, const LaneScene& lanes, const PropagationLimits& limits,
+                           RunLanes kernel)
+    : scene_(scene), limits_(limits), run_(kernel), lane_scene_(lanes), own_(LanePool::kPhotons), pool_{} {
   for (LanePhoton& photon : pool_.photons) {
     photon.region = lanes.any_planes();
     photon.optics = empty_optics();

@@ -55,8 +55,8 @@ class SurfaceLanes {
   PropagationLimits limits_;
   RunLanes run_;
   const LaneScene& lane_scene_;
-  LaneScene::AtWavelength at_first_;            ///< of the first photon
-  std::vector<LaneScene::AtWavelength> own_;    ///< by slot, of photons of other wavelengths
+  LaneScene::AtWavelength at_first_;          ///< of the first photon
+  std::vector<LaneScene::AtWavelength> own_;  ///< by slot, of photons of other wavelengths
   LanePool pool_;
   std::array<std::uint32_t, LanePool::kPhotons> names_{};
   std::vector<std::uint32_t> free_;  ///< slots

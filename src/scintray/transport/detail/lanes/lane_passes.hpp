@@ -247,66 +247,42 @@ class LanePasses : LanePhotons<Real, kDraws> {
 
   /// To the next plane, and through a total reflection there.
   void propagate(Now& now, const Mask& here) {
-    const LaneAhead<Real> ahead =
-        nearest_plane(load(position_) - load(centre_), now.light.direction);
+    const LaneAhead<Real> ahead = nearest_plane(load(position_) - load(centre_), now.light.direction);
     const Real zero(0.0);
     const Real distance = select(ahead.distance_mm < zero, zero, ahead.distance_mm);
     store(plane_, select(here, ahead.plane, load(plane_)));
     move<false>(now, here, here, distance);
   }
 
-  /// Across a thin gap to the face beyond, as scene::Accelerator::exit_across_gap().
+  /// Across the first gap in front of the face to the face beyond, as scene::Accelerator::exit_across_gap().
+  /// Photons that are beside it, or have another beyond it, wait for the scalar code.
   void cross_gap(Now& now, const Mask& here) {
-    static constexpr LaneGap kNone{{0, 0, 0}, 0, {0, 0, 0}, 1, {0, 0, 0}, 1, 0, 0, 0};  // has no point
-    const Vector local = load(position_) - load(centre_), direction = now.light.direction;
-    const LaneGap* next[kWidth];
-    const LaneGap* end[kWidth];
+    static constexpr LaneGap kNone{};
     const unsigned lanes = lanes_of(here);
+    const double* gaps[kWidth];
     for (std::size_t lane = 0; lane < kWidth; ++lane) {
       const LaneFace& face = photon_[lane]->region.faces[static_cast<std::size_t>(plane_[lane])];
-      const bool takes_part = (lanes >> lane & 1) != 0;
-      next[lane] = takes_part ? face.gaps : &kNone;
-      end[lane] = takes_part ? face.gaps + face.gap_count : &kNone;
+      gaps[lane] = ((lanes >> lane & 1) != 0 ? face.gap : &kNone)->normal;
     }
-    const Real zero(0.0);
-    Real distance = zero, beyond = load(plane_);
-    Mask found = here & !here, pending = here;
-    for (;;) {
-      const double* at[kWidth];
-      for (std::size_t lane = 0; lane < kWidth; ++lane)
-        at[lane] = (next[lane] != end[lane] ? next[lane] : &kNone)->normal;
-      const LaneFours<Real> plane = row_of(at, 0), first = row_of(at, 1), second = row_of(at, 2),
-                            last = row_of(at, 3);
-      const Vector normal{plane.of[0], plane.of[1], plane.of[2]};
-      const Vector x{first.of[0], first.of[1], first.of[2]}, y{second.of[0], second.of[1], second.of[2]};
-      const Real at_x = dot(x, local), at_y = dot(y, local);
-      const auto contains = [&](const Real& along_x, const Real& along_y) {
-        return (along_x >= first.of[3]) & (along_x <= last.of[0]) & (along_y >= second.of[3]) &
-               (along_y <= last.of[1]);
-      };
-      // As Accelerator::approach_of(), in its order of additions.
-      const Real cosine = (normal.x * direction.x + normal.z * direction.z) + normal.y * direction.y;
-      const Real height = (normal.x * local.x + normal.z * local.z) + (normal.y * local.y - plane.of[3]);
-      const Real ahead = -height / cosine;
-      const Real this_distance = select(ahead > zero, ahead, zero);
-      const Mask starts = pending & contains(at_x, at_y), approaches = cosine > zero;
-      const Mask this_one =
-          starts & approaches &
-          contains(at_x + this_distance * dot(x, direction), at_y + this_distance * dot(y, direction));
-      distance = select(this_one, this_distance, distance);
-      beyond = select(this_one, last.of[2], beyond);
-      found = found | this_one;
-      pending = pending & !(this_one | (starts & !approaches));
-      unsigned more = 0;
-      for (unsigned these = lanes_of(pending); these != 0; these &= these - 1) {
-        const auto lane = static_cast<std::size_t>(__builtin_ctz(these));
-        more |= next[lane] == end[lane] || ++next[lane] == end[lane] ? 0U : 1U << lane;
-      }
-      if (more == 0) break;
-      pending = pending & Mask::of(more);
-    }
-    store(plane_, beyond);
-    move<true>(now, here, found, distance);
+    const LaneFours<Real> plane = row_of(gaps, 0), first = row_of(gaps, 1), second = row_of(gaps, 2),
+                          last = row_of(gaps, 3);
+    const Vector local = load(position_) - load(centre_), direction = now.light.direction;
+    const Vector normal{plane.of[0], plane.of[1], plane.of[2]};
+    const Vector x{first.of[0], first.of[1], first.of[2]}, y{second.of[0], second.of[1], second.of[2]};
+    const Real at_x = dot(x, local), at_y = dot(y, local);
+    const auto contains = [&](const Real& along_x, const Real& along_y) {
+      return (along_x >= first.of[3]) & (along_x <= last.of[0]) & (along_y >= second.of[3]) &
+             (along_y <= last.of[1]);
+    };
+    // As Accelerator::approach_of(), in its order of additions.
+    const Real cosine = (normal.x * direction.x + normal.z * direction.z) + normal.y * direction.y;
+    const Real height = (normal.x * local.x + normal.z * local.z) + (normal.y * local.y - plane.of[3]);
+    const Real ahead = -height / cosine, zero(0.0);
+    const Real distance = select(ahead > zero, ahead, zero);
+    const Mask found = here & (cosine > zero) & contains(at_x, at_y) &
+                       contains(at_x + distance * dot(x, direction), at_y + distance * dot(y, direction));
+    store(plane_, select(found, last.of[2], load(plane_)));
+    move<true>(now, here, found, select(found, distance, zero));
   }
 
   /// Along a segment to a face, and in a region bounded by planes through a total reflection there.
@@ -341,16 +317,15 @@ class LanePasses : LanePhotons<Real, kDraws> {
       const Mask within =
           (interactions < Real(pool_.most_interactions)) & (there_time <= Real(pool_.most_time_ns));
       const Real after_total = select(within, Real(lane_state::kPropagate), Real(lane_state::kCut));
-      now.state =
-          select(here, select(moves, select(total, after_total, now.kind), stays), now.state);
+      now.state = select(here, select(moves, select(total, after_total, now.kind), stays), now.state);
     }
   }
 
   /// Into the region behind the face, where that is in lanes; else the photon waits.
   /// @return whether some photon has entered it
   bool enter_next(Now& now, const Mask& here) {
-    const Mask within = (load(interactions_) < Real(pool_.most_interactions)) &
-                        (load(time_ns_) <= Real(pool_.most_time_ns));
+    const Mask within =
+        (load(interactions_) < Real(pool_.most_interactions)) & (load(time_ns_) <= Real(pool_.most_time_ns));
     unsigned entering = 0, at_gaps = 0;
     const double* media[kWidth];
     const unsigned may = lanes_of(here & within);

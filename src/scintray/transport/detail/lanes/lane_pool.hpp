@@ -113,8 +113,7 @@ struct alignas(64) LaneFace {
   double behind_face;       ///< number of this face there
 
   const LaneRegion* behind = nullptr;  ///< null: light that crosses the face leaves the lanes
-  const LaneGap* gaps = nullptr;       ///< in front of the face
-  std::size_t gap_count = 0;
+  const LaneGap* gap = nullptr;        ///< the first in front of the face; one without a point: there is none
   std::size_t optics = 0;  ///< in another scene: place of its LaneFaceOptics in LanePhoton::optics
 };
 static_assert(sizeof(LaneFace) == 192);
