@@ -389,7 +389,7 @@ TEST_CASE("Photons stay in lanes at facets, tables and reflectors, and each is r
   for (const int width : core::lane_widths()) {
     CAPTURE(width);
     const auto kind = width < 4 ? transport::LaneKind::none : transport::LaneKind::surfaces;
-    CHECK(transport::lane_kind(point->scene(), point->start(0, 0).region, width) == kind);
+    CHECK(transport::lane_kinds(point->scene(), width)[point->start(0, 0).region] == kind);
     const TracedPhotons traced = trace_with(scene, width);
     REQUIRE(traced.list.size() > 100);
     for (std::size_t i = 0; i < traced.list.size(); i += 31) {
@@ -408,7 +408,7 @@ TEST_CASE("Polished convex bodies of planes and quadrics are traced in lanes, ot
   const auto kind_of = [](const std::string& scene) {
     const auto point = ready(scene_spec(scene));
     const int widest = core::lane_widths().back();
-    return transport::lane_kind(point->scene(), point->start(0, 0).region, widest);
+    return transport::lane_kinds(point->scene(), widest)[point->start(0, 0).region];
   };
   const auto in_lanes =
       core::lane_widths().size() > 1 ? transport::LaneKind::smooth : transport::LaneKind::none;
@@ -451,11 +451,11 @@ photons = 4000
         starts.emplace_back(i);
     REQUIRE(starts.size() == static_cast<std::size_t>(crystals));
     const int width = core::lane_widths().back();
-    const transport::LaneKinds kinds = transport::lane_kinds(scene, width);
-    REQUIRE(kinds[first] == transport::LaneKind::smooth);
+    const transport::LanePlan lanes(scene, width);
+    REQUIRE(lanes.kind(first) == transport::LaneKind::smooth);
     transport::PropagationLimits limits;
     limits.interactions = 1000;
-    transport::Batch batch(scene, limits, width, kinds);
+    transport::Batch batch(scene, limits, lanes);
     const auto emit = [&](std::uint64_t i, std::span<source::EmittedPhoton* const> photons) {
       for (source::EmittedPhoton* const emitted : photons) {
         emitted->rng = photon_stream(RunSettings{}, i / 1000, i % 1000);
@@ -504,8 +504,8 @@ TEST_CASE("Ends arrive in the order of photons, however many others end before o
   limits.interactions = 1000;
   for (const int width : core::lane_widths()) {
     CAPTURE(width);
-    const transport::LaneKinds kinds = transport::lane_kinds(scene, width);
-    transport::Batch batch(scene, limits, width, kinds);
+    const transport::LanePlan lanes(scene, width);
+    transport::Batch batch(scene, limits, lanes);
     for (int call = 0; call < 2; ++call) {  // a batch serves again
       std::uint64_t next = 0;
       batch.trace(3000, emit, [&](std::uint64_t i, const transport::TracedPhoton& end) {

@@ -15,14 +15,22 @@ namespace scintray::transport {
 
 namespace {
 
-LaneKind kind_by_itself(const scene::Scene& scene, const scene::Region& region) {
-  if (!region.in_lanes) return LaneKind::none;
+/// Kernels for a region by its own boundary.
+struct Kernels {
+  LaneKind best = LaneKind::none;
+  LaneKind without_others = LaneKind::none;  ///< where light that leaves it leaves the lanes
+};
+
+Kernels kernels_for(const scene::Scene& scene, const scene::Region& region, bool surfaces) {
+  if (!region.in_lanes) return {};
   const scene::LaneShares shares = scene::lane_shares(scene, region);
-  const bool surfaces = !region.curved && shares.known > 0.5;
+  Kernels kernels;
   // With few total reflections in a row, entering and leaving the lanes costs more than they save.
-  if (shares.smooth > 0.5 && shares.total > 0.5 && !region.thin_gaps && !std::getenv("TOG"))
-    return LaneKind::smooth;
-  return surfaces ? LaneKind::surfaces : LaneKind::none;
+  if (shares.smooth > 0.5 && shares.total > 0.5 && !region.thin_gaps)
+    kernels.without_others = LaneKind::smooth;
+  kernels.best =
+      surfaces && !region.curved && shares.known > 0.5 ? LaneKind::surfaces : kernels.without_others;
+  return kernels;
 }
 
 /// Ways of light that reaches a boundary in lanes.
@@ -43,9 +51,11 @@ InLanes in_lanes_at(const scene::Scene& scene, const scene::BoundaryLink& link, 
   return surface->micro == optics::LaneSurface::Micro::smooth ? InLanes::leaves : InLanes::returns;
 }
 
-/// Whether light that is in a region stays in lanes for long: from most of the boundary. Where there are thin
-/// gaps it has to come in through some of it as well.
-bool stays_in_lanes(const scene::Scene& scene, const scene::Region& region, const LaneKinds& kinds) {
+/// Whether light stays in lanes for long: at most of the boundary of its region. Into thin gaps it has to
+/// come as well. From a region with a kernel of its own most of it has to go on in lanes.
+bool stays_in_lanes(const scene::Scene& scene, const scene::Region& region, const LaneKinds& kinds,
+                    bool has_own_kernel) {
+  constexpr double kMost = 0.6;  // more than of a layer of grease between crystal and sensor
   const scene::BoundaryLink* const links = scene.links_of(region);
   const scene::Boundary& boundary = scene.accelerator(region).boundary();
   const auto& mixed = boundary.plane_triangles;  // of planes that lead to several regions
@@ -58,14 +68,16 @@ bool stays_in_lanes(const scene::Scene& scene, const scene::Region& region, cons
     if (way == InLanes::returns) returns += area;
     if (way == InLanes::crosses) crosses += area;
   }
-  return returns + crosses > 0.6 * all && (crosses > 0.0 || !region.thin_gaps);
+  if (has_own_kernel) return crosses > kMost * all;
+  return returns + crosses > kMost * all && (crosses > 0.0 || !region.thin_gaps);
 }
 
 }  // namespace
 
 LaneKinds lane_kinds(const scene::Scene& scene, int lane_width) {
-  LaneKinds kinds;
+  LaneKinds kinds, without_others;
   kinds.resize(scene.regions.size());
+  without_others.resize(scene.regions.size());
   if (lane_width == 1) return kinds;
   const auto each = [&](const auto& act) {
     for (std::uint32_t i = 0; i < scene.regions.size(); ++i)
@@ -73,15 +85,17 @@ LaneKinds lane_kinds(const scene::Scene& scene, int lane_width) {
   };
   const bool surfaces = lane_kernels(lane_width).run != nullptr;
   each([&](core::RegionId id, const scene::Region& region) {
-    kinds[id] = kind_by_itself(scene, region);
-    if (kinds[id] == LaneKind::surfaces && !surfaces) kinds[id] = LaneKind::none;
+    const Kernels kernels = kernels_for(scene, region, surfaces);
+    kinds[id] = kernels.best;
+    without_others[id] = kernels.without_others;
   });
-  // Each region that is left out may be one that others need.
+  // Each region that is left out may be one into which light of others goes.
   for (bool changed = true; changed;) {
     changed = false;
     each([&](core::RegionId id, const scene::Region& region) {
-      if (kinds[id] != LaneKind::surfaces || stays_in_lanes(scene, region, kinds)) return;
-      kinds[id] = LaneKind::none;
+      const bool has_own_kernel = without_others[id] != LaneKind::none;
+      if (kinds[id] != LaneKind::surfaces || stays_in_lanes(scene, region, kinds, has_own_kernel)) return;
+      kinds[id] = without_others[id];
       changed = true;
     });
   }
