@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
+#include <map>
 #include <new>
 
 #include "scintray/optics/facet_laws.hpp"
@@ -95,7 +95,7 @@ LaneScene::LaneScene(const scene::Scene& scene, const LaneKinds& kinds) : scene_
   set_wavelength(scene.low_nm, at);
   each([&](core::RegionId id) {
     for (LaneFace& face : regions_[id].faces)
-      std::memcpy(&face.at_one.index_behind, &at.records[face.optics], sizeof(face.at_one));
+      face.at_one = *std::launder(reinterpret_cast<const LaneFaceOptics*>(&at.records[face.optics]));
   });
 }
 
@@ -172,14 +172,17 @@ void LaneScene::add_gaps(const scene::Accelerator& accelerator, Shape& shape) {
     lanes.high_y = gap.high_y;
     const std::uint32_t beyond = shape.face_of[gap.beyond];
     lanes.beyond = beyond != kNotAtGaps ? beyond : add(gap.beyond);
+    // The one that light reaches: others of the face may have another normal in the last bit.
+    shape.triangles[static_cast<std::size_t>(lanes.beyond)] = gap.beyond;
     shape.gaps.push_back(lanes);
   }
 }
 
-std::optional<std::uint32_t> LaneScene::face_at_gap(const source::Photon& photon) const {
-  if (photon.on_triangle == scene::kNoTriangle) return std::nullopt;
-  const Shape& shape = shapes_[scene_.regions[photon.region].accelerator];
-  const std::uint32_t face = shape.face_of[photon.on_triangle];
+std::optional<std::uint32_t> LaneScene::face_at_gap(const scene::Region& region,
+                                                    std::uint32_t triangle) const {
+  if (triangle == scene::kNoTriangle) return std::nullopt;
+  const Shape& shape = shapes_[region.accelerator];
+  const std::uint32_t face = shape.face_of[triangle];
   if (face == kNotAtGaps || shape.gaps_of[face].begin == shape.gaps_of[face].end) return std::nullopt;
   return face;
 }
@@ -209,7 +212,7 @@ LaneFace LaneScene::face(const scene::Region& region, const Shape& shape, std::u
   LaneFace face{};
   for (int axis = 0; axis < 3; ++axis) face.normal[axis] = normal[axis];
   face.kind = lane_state::kBoundary;
-  face.optics = scene_.optics.media.size();
+  face.optics = no_surface();
   static constexpr LaneGap kNoGap{};
   const scene::ThinGaps::Range gaps = shape.gaps_of[number];
   face.gap = gaps.begin != gaps.end ? &shape.gaps[gaps.begin] : &kNoGap;
@@ -228,7 +231,7 @@ void LaneScene::link_faces(core::RegionId id, const LaneKinds& kinds) {
   const Shape& shape = shapes_[region.accelerator];
   for (std::size_t number = 0; number < shape.triangles.size(); ++number) {
     LaneFace& face = regions_[id].faces[number];
-    if (face.optics == scene_.optics.media.size()) continue;
+    if (face.optics == no_surface()) continue;
     const std::uint32_t triangle = shape.triangles[number];
     const scene::BoundaryLink& link = scene_.link(region, triangle);
     const core::RegionId next = behind(scene_, link);
@@ -238,10 +241,7 @@ void LaneScene::link_faces(core::RegionId id, const LaneKinds& kinds) {
     const scene::Region& there = scene_.regions[next];
     face.behind_face = 0.0;
     if (there.thin_gaps) {
-      source::Photon photon;
-      photon.region = next;
-      photon.on_triangle = scene_.twin(region, triangle);
-      const std::optional<std::uint32_t> at = face_at_gap(photon);
+      const std::optional<std::uint32_t> at = face_at_gap(there, scene_.twin(region, triangle));
       if (!at) continue;
       face.behind_face = *at;
     }
@@ -253,8 +253,7 @@ void LaneScene::link_faces(core::RegionId id, const LaneKinds& kinds) {
 std::size_t LaneScene::alike(const scene::BoundaryLink& link, core::MediumId here,
                              const optics::LaneSurface& surface) {
   for (std::size_t i = 0; i < alike_.size(); ++i)
-    if (alike_[i].here == here && are_alike(scene_, alike_[i].link, link))
-      return scene_.optics.media.size() + 3 * (i + 1);
+    if (alike_[i].here == here && are_alike(scene_, alike_[i].link, link)) return place_of(i);
   LaneFaceOptics constant{};
   if (surface.facets) set_facets(*surface.facets, constant);
   if (surface.reflector) {
@@ -262,7 +261,7 @@ std::size_t LaneScene::alike(const scene::BoundaryLink& link, core::MediumId her
     constant.specular_share = surface.reflector->specular_share;
   }
   alike_.push_back({link, here, surface, surface.table ? tables_of(*surface.table) : nullptr, constant});
-  return scene_.optics.media.size() + 3 * alike_.size();
+  return place_of(alike_.size() - 1);
 }
 
 const LaneTable* LaneScene::tables_of(const optics::SurfaceTable& table) {
@@ -284,8 +283,7 @@ const LaneTable* LaneScene::tables_of(const optics::SurfaceTable& table) {
 
 void LaneScene::set_wavelength(double wavelength_nm, AtWavelength& to) const {
   to.wavelength_nm = wavelength_nm;
-  const std::size_t media = scene_.optics.media.size();
-  to.records.resize(media + 3 * (alike_.size() + 1));
+  to.records.resize(place_of(alike_.size()));
   // In place: a copy of what was just written would wait for it.
   const auto place = [&to]<typename Record>(std::size_t at, const Record& record) -> Record& {
     return *new (&to.records[at]) Record(record);
@@ -297,14 +295,14 @@ void LaneScene::set_wavelength(double wavelength_nm, AtWavelength& to) const {
     record.group_index = at.group_index;
     record.attenuation_per_mm = at.absorption_per_mm + at.scattering_per_mm;
   }
-  place(media, LaneFaceOptics{}).least_sin2 = kNoTotalReflection;
+  place(no_surface(), LaneFaceOptics{}).least_sin2 = kNoTotalReflection;
   source::Photon light;
   light.wavelength_nm = wavelength_nm;
   for (std::size_t i = 0; i < alike_.size(); ++i) {
     const AlikeFaces& alike = alike_[i];
     const scene::Interface& interface = scene_.interfaces[alike.link.interface];
     const double here = light.optics.index = to.records[alike.here.index()].of[0];
-    LaneFaceOptics& at = place(media + 3 * (i + 1), alike.constant);
+    LaneFaceOptics& at = place(place_of(i), alike.constant);
     at.index_behind = index_behind(scene_, alike.link, light);
     at.counted = !interface.plain || here != at.index_behind ? 1.0 : 0.0;
     at.least_sin2 = interface.plain ? critical_sin2(scene_, alike.link.smooth_to, light) : kNoTotalReflection;

@@ -26,15 +26,15 @@ class LaneScene {
   bool has_gaps() const { return has_gaps_; }
   /// Whether all light has one wavelength.
   bool has_one_wavelength() const { return scene_.low_nm == scene_.high_nm; }
-  /// Number of the face that a photon in a region with thin gaps is on; nothing where there is no gap in
-  /// front of it.
-  std::optional<std::uint32_t> face_at_gap(const source::Photon& photon) const;
+  /// Number of the face, at a gap, of a triangle of a region with thin gaps; nothing where there is no gap in
+  /// front of it, and for kNoTriangle.
+  std::optional<std::uint32_t> face_at_gap(const scene::Region& region, std::uint32_t triangle) const;
   /// A triangle on a face of a region's boundary.
   std::uint32_t triangle(core::RegionId region, std::size_t face) const {
     return shapes_[scene_.regions[region].accelerator].triangles[face];
   }
 
-  /// What depends on the wavelength.
+  /// What depends on the wavelength, as LanePhoton::optics.
   struct AtWavelength {
     double wavelength_nm = 0.0;
     std::vector<LaneRecord> records;
@@ -69,12 +69,18 @@ class LaneScene {
   const Shape& shape_of(const scene::Region& region);
   void make_faces(core::RegionId id);
   LaneFace face(const scene::Region& region, const Shape& shape, std::uint32_t number);
-  /// Number of the faces alike among those of LaneOptics.
+  /// Places among AtWavelength::records: of a face that has no surface for lanes, and of those alike.
+  std::size_t no_surface() const { return scene_.optics.media.size(); }
+  std::size_t place_of(std::size_t alike) const { return no_surface() + (alike + 1) * kRecords; }
+  /// Place of the faces alike.
   std::size_t alike(const scene::BoundaryLink& link, core::MediumId here, const optics::LaneSurface& surface);
   /// Sets what is behind the faces of a region.
   void link_faces(core::RegionId id, const LaneKinds& kinds);
   /// Of a table, from each of its wavelengths to the next.
   const LaneTable* tables_of(const optics::SurfaceTable& table);
+
+  /// Of a LaneFaceOptics.
+  static constexpr std::size_t kRecords = sizeof(LaneFaceOptics) / sizeof(LaneRecord);
 
   const scene::Scene& scene_;
   core::IdVector<core::AcceleratorId, Shape> shapes_;  ///< without triangles: not made

@@ -54,7 +54,7 @@ void SurfaceLanes::enter(std::uint32_t name, const source::Photon& photon, const
   entered.region = lane_scene_.region(photon.region);
   entered.optics = optics_at(photon.wavelength_nm, slot);
   const bool at_gap = entered.region.has_gaps != 0;
-  entered.plane = at_gap ? *lane_scene_.face_at_gap(photon) : 0.0;
+  entered.plane = at_gap ? *lane_scene_.face_at_gap(scene_.regions[photon.region], photon.on_triangle) : 0.0;
   pool_.in_state[static_cast<std::size_t>(at_gap ? lane_state::kAcross : lane_state::kPropagate)] |=
       std::uint64_t{1} << slot;
   give_numbers(rng, entered);

@@ -23,7 +23,8 @@ class SurfaceLanes {
   /// Whether a photon in a region of LaneKind::surfaces can be entered.
   bool takes(const source::Photon& photon) const {
     if (pool_.one_wavelength && photon.wavelength_nm != at_first_.wavelength_nm) return false;
-    return !scene_.regions[photon.region].thin_gaps || lane_scene_.face_at_gap(photon).has_value();
+    const scene::Region& region = scene_.regions[photon.region];
+    return !region.thin_gaps || lane_scene_.face_at_gap(region, photon.on_triangle).has_value();
   }
   bool has_room() const { return !free_.empty(); }
   bool empty() const { return free_.size() == LanePool::kPhotons; }

@@ -1,0 +1,272 @@
+#pragma once
+/// Photons of the pool in lanes: the stages in which they interact with the surface of a face.
+
+#include "scintray/core/sampling_laws.hpp"
+#include "scintray/optics/facet_laws.hpp"
+#include "scintray/optics/fresnel_laws.hpp"
+#include "scintray/transport/detail/lanes/lane_motion.hpp"
+
+namespace scintray::transport {
+namespace {
+
+template <typename Real, LaneDraws kDraws, bool kOneWavelength>
+class LaneSurfaces : protected LaneMotion<Real, kDraws, kOneWavelength> {
+  using Motion = LaneMotion<Real, kDraws, kOneWavelength>;
+
+ protected:
+  using Motion::choose;
+  using Motion::count_drawn;
+  using Motion::draw;
+  using Motion::face_of;
+  using Motion::index_;
+  using Motion::kWidth;
+  using Motion::load;
+  using Motion::next_;
+  using Motion::next_number;
+  using Motion::next_numbers;
+  using Motion::number_of_lanes;
+  using Motion::one_if;
+  using Motion::optics_of;
+  using Motion::store;
+  using typename Motion::Bits;
+  using typename Motion::Light;
+  using typename Motion::Mask;
+  using typename Motion::Now;
+  using typename Motion::Random;
+  using typename Motion::Vector;
+  /// Facets are redrawn until at most this number of lanes lacks one; those wait for the next pass.
+  static constexpr int kFewLanes = static_cast<int>(kWidth / 4);
+
+  explicit LaneSurfaces(LanePool& pool) : Motion(pool) {}
+
+  /// Smooth surfaces, and facets, for which one is drawn first; where none is accepted the photon stays.
+  void pass_microsurface(Now& now, const Mask& smooth, const Mask& facets) {
+    const Vector against = -now.side * now.normal;
+    Vector m = against;
+    Mask pending = facets;
+    if (any(facets)) {
+      const LaneFours<Real> more = optics_of(now, 1), last = optics_of(now, 2);
+      const Mask by_area = last.of[0] > Real(0.0);
+      const optics::FacetNumbers<Real> numbers{more.of[0], more.of[1], more.of[2], more.of[3], by_area};
+      do {
+        draw(pending, 4.0);
+        const Random random = next_numbers();
+        const optics::FacetDraw<Real> facet(
+            numbers, now.light.direction, against,
+            {random.uniform_positive(0), random.uniform(1), random.uniform(2), random.uniform(3)});
+        const Mask found = pending & facet.accepted;
+        m = select(found, facet.normal, m);
+        count_drawn(select(pending, facet.drawn, Real(0.0)));
+        pending = pending & !facet.accepted;
+      } while (number_of_lanes(pending) > kFewLanes);
+    }
+    const Mask ready = smooth | (facets & !pending);
+    draw(ready, 1.0);
+    const Bits for_fresnel = next_number();
+    const Mask inside = now.side > Real(0.0);
+    const Real index = load(index_);
+    const Refracted after = refract(now.light, m, select(inside, index, now.index_behind),
+                                    select(inside, now.index_behind, index), for_fresnel);
+    now.light = select(ready, after.light, now.light);
+    now.side = select(ready & after.transmitted, -now.side, now.side);
+    const Real outward = now.side * dot(now.light.direction, now.normal);
+    const Mask left = ready & (smooth | (outward < Real(0.0)));
+    const Real through =
+        select(now.reflector > Real(0.0), Real(lane_state::kReflector), Real(lane_state::kThrough));
+    const Real next = select(now.side > Real(0.0), Real(lane_state::kReflected), through);
+    now.state = select(left, next, now.state);
+    count_drawn(one_if(ready & after.drawn));
+  }
+
+  struct Refracted {
+    Light light;
+    Mask transmitted;
+    Mask drawn;  ///< the random number was used
+  };
+  /// As optics::interact_at_facet.
+  static Refracted refract(const Light& light, const Vector& m, const Real& n1, const Real& n2,
+                           const Bits& random) {
+    const Real cos_i = cos_incidence(light, m);
+    const optics::RefractionOf<Real> refraction(cos_i, n1, n2);
+    const Mask total = refraction.total(), unpolarised = is_zero(light.polarisation);
+    optics::FacetLight<Real> facet(light, m, cos_i, refraction, n1, n2);
+    const Mask straight = (!unpolarised) & (refraction.sin2_i < Real(optics::kNormalIncidence));
+    const Real polarised = facet.polarised_reflectance();
+    const Real reflectance = select(unpolarised, facet.unpolarised_reflectance(),
+                                    select(straight, facet.reflectance_s(), polarised));
+    const Mask transmitted = (!total) & (core::uniform_of<Real>(random) >= reflectance);
+    const Light mirrored = optics::reflected(light, m);
+    const Vector direction =
+        select(transmitted, select(straight, light.direction, facet.refracted()), mirrored.direction);
+    Vector polarisation = facet.polarised(transmitted, direction);
+    polarisation = select(unpolarised | (straight & transmitted), light.polarisation, polarisation);
+    polarisation = select(total | (straight & !transmitted), mirrored.polarisation, polarisation);
+    return {{direction, polarisation}, transmitted, !total};
+  }
+
+  /// Table entries for each photon.
+  struct LookedUp {
+    const optics::TableView* view[kWidth];
+    const optics::TableInterval* interval[kWidth];
+    alignas(64) double several[kWidth];  ///< 1: one of two slices was drawn
+    alignas(64) double absorbs[kWidth], transmits[kWidth];
+  };
+  /// @param first  random number that selects between slices
+  LookedUp look_up(const Now& now, const Mask& here, const Real& slants, const Real& first) const {
+    static constexpr optics::TableInterval kNone{};
+    LookedUp found;
+    alignas(64) double slant[kWidth], uniform[kWidth], side[kWidth];
+    slants.store(slant), first.store(uniform), now.side.store(side);
+    const unsigned lanes = lanes_of(here);
+    for (std::size_t lane = 0; lane < kWidth; ++lane) {
+      found.interval[lane] = &kNone;
+      found.several[lane] = found.absorbs[lane] = found.transmits[lane] = 0.0;
+      if ((lanes >> lane & 1) == 0) continue;
+      const LaneFaceOptics& face = kOneWavelength
+                                       ? face_of(now, lane).at_one
+                                       : *reinterpret_cast<const LaneFaceOptics*>(now.optics[lane]);
+      const LaneTable& table = *face.table;
+      found.view[lane] = &table.view[uniform[lane] < face.to_next ? 1 : 0][side[lane] > 0.0 ? 0 : 1];
+      found.interval[lane] = &optics::interval_at(*found.view[lane], slant[lane]);
+      found.several[lane] = face.to_next >= 0.0 ? 1.0 : 0.0;
+      found.absorbs[lane] = table.absorbs ? 1.0 : 0.0;
+      found.transmits[lane] = found.interval[lane]->transmits ? 1.0 : 0.0;
+    }
+    return found;
+  }
+
+  /// Directions of exit, each looked up at its levels.
+  struct Exits {
+    Real polar, azimuth;
+  };
+  static Exits exits_of(const LookedUp& found, const Mask& leaves, const Mask& reflected, const Real& shares,
+                        const Real& polar_levels, const Real& azimuth_levels) {
+    alignas(64) double share[kWidth], polar[kWidth], azimuth[kWidth];
+    shares.store(share), polar_levels.store(polar), azimuth_levels.store(azimuth);
+    const unsigned lanes = lanes_of(leaves), ways = lanes_of(reflected);
+    optics::TableCell cells[kWidth];
+    // What is seldom in the nearest cache is fetched for all lanes before the first waits for it.
+    for (std::size_t lane = 0; lane < kWidth; ++lane) {
+      if ((lanes >> lane & 1) == 0) continue;
+      cells[lane] = optics::table_cell(*found.view[lane], *found.interval[lane],
+                                       static_cast<int>(ways >> lane & 1), polar[lane], azimuth[lane]);
+      __builtin_prefetch(cells[lane].azimuth_low);
+      __builtin_prefetch(cells[lane].azimuth_high);
+      __builtin_prefetch(cells[lane].polar_low);
+      __builtin_prefetch(cells[lane].polar_low + found.view[lane]->nodes);
+    }
+    for (std::size_t lane = 0; lane < kWidth; ++lane) {
+      if ((lanes >> lane & 1) == 0) continue;
+      const optics::TableExit exit = optics::table_exit(*found.view[lane], cells[lane], share[lane]);
+      polar[lane] = static_cast<double>(exit.polar);
+      azimuth[lane] = static_cast<double>(exit.azimuth);
+    }
+    return {Real::load(polar), Real::load(azimuth)};
+  }
+
+  /// As optics::SurfaceTable::interact, of a table with folded azimuths.
+  void interact_with_table(Now& now, const Mask& here) {
+    const Real zero(0.0), one(1.0);
+    const Real cosine = dot(now.light.direction, now.normal);
+    const Vector lateral = now.light.direction - cosine * now.normal;
+    const Real sine = root(dot(lateral, lateral));
+    Vector forward{lateral.x / sine, lateral.y / sine, lateral.z / sine};
+    Mask ready = here;
+    const Mask no_plane = here & (sine <= Real(optics::kNoIncidencePlane));
+    if (any(no_plane)) {
+      draw(no_plane, 1.0);
+      const core::CirclePoint<Real> point(next_number());
+      count_drawn(one_if(no_plane));
+      forward = select(no_plane, core::across_at<Real>(now.normal, point), forward);
+      ready = here & !(no_plane & !point.accepted);
+    }
+    draw(ready, 4.0);
+    const Random random = next_numbers();
+    const Real slant = optics::slant_of<Real>(sine, magnitude(cosine));
+    const LookedUp found = look_up(now, ready, slant, random.uniform(0));
+    const double* numbers[kWidth];
+    LaneFours<Real> first, second;
+    for (std::size_t lane = 0; lane < kWidth; ++lane) numbers[lane] = &found.interval[lane]->start;
+    load_fours(numbers, first);
+    for (std::size_t lane = 0; lane < kWidth; ++lane) numbers[lane] = &found.interval[lane]->reflectance_step;
+    load_fours(numbers, second);
+    const Real share = optics::share_of<Real>(slant, first.of[0], first.of[1], first.of[2]);
+    const Real reflectance = first.of[3] + share * second.of[0];
+    const Real absorptance = second.of[1] + share * second.of[2];
+
+    const Mask several = Real::load(found.several) > zero;
+    const Real u = core::uniform_of<Real>(choose(several, random.bits[1], random.bits[0]));
+    const Mask reflected = u < reflectance;
+    const Mask absorbed = ready & (Real::load(found.absorbs) > zero) & !reflected &
+                          ((!(Real::load(found.transmits) > zero)) | (u < reflectance + absorptance));
+    const Mask leaves = ready & !absorbed;
+    const Bits azimuth_bits = choose(several, random.bits[3], random.bits[2]);
+    const Exits exits = exits_of(found, leaves, reflected, share,
+                                 optics::level_of_two_tails<Real>(
+                                     core::uniform_of<Real>(choose(several, random.bits[2], random.bits[1]))),
+                                 optics::level_of_one_tail<Real>(core::uniform_of<Real>(azimuth_bits)));
+    const core::SineCosineOf<Real> polar = core::laws::sincos<Real>(exits.polar);
+    const Mask grazing = polar.cosine < Real(optics::kLeastExitCosine);
+    const Real sin_polar = select(grazing, one, polar.sine);
+    const Real cos_polar = select(grazing, Real(optics::kLeastExitCosine), polar.cosine);
+    // A bit that u does not use: either side of the plane of incidence.
+    const core::SineCosineOf<Real> azimuth =
+        core::laws::sincos<Real>(number_of(bits_of(exits.azimuth) ^ (azimuth_bits << 63)));
+
+    const Real after = select(reflected, now.side, -now.side);
+    const Vector across = cross(now.normal, forward);
+    const Vector direction =
+        sin_polar * (azimuth.cosine * forward + azimuth.sine * across) + (-after * cos_polar) * now.normal;
+    const Mask unpolarised = is_zero(now.light.polarisation);
+    now.light.direction = select(leaves, direction, now.light.direction);
+    now.side = select(leaves, after, now.side);
+    const Real through =
+        select(now.reflector > zero, Real(lane_state::kReflector), Real(lane_state::kThrough));
+    const Real next = select(after > zero, Real(lane_state::kReflected), through);
+    store(next_, select(leaves, next, load(next_)));
+    now.state = select(leaves, select(unpolarised, next, Real(lane_state::kPolarise)), now.state);
+    now.state = select(absorbed, Real(lane_state::kAbsorbed), now.state);
+    const Real drawn = select(absorbed, one, Real(3.0)) + select(several, one, zero);
+    count_drawn(select(ready, drawn, zero));
+  }
+
+  /// As optics::interact_at_reflector, of an opaque sheet that reflects by Lambert's law and specularly.
+  void reflect_at_reflector(Now& now, const Mask& here) {
+    draw(here, 4.0);
+    const Random random = next_numbers();
+    const LaneFours<Real> sheet = optics_of(now, 2);
+    const Real zero(0.0), one(1.0), share = sheet.of[2];
+    const Mask absorbed = random.uniform(0) >= sheet.of[1];
+    const Mask mixed = share > zero, specular = mixed & (random.uniform(1) < share);
+    const Vector against = -now.normal;
+    const Vector diffuse =
+        core::lambertian<Real>(against, core::uniform_of<Real>(choose(mixed, random.bits[2], random.bits[1])),
+                               core::uniform_of<Real>(choose(mixed, random.bits[3], random.bits[2])));
+    const Light mirrored = optics::reflected(now.light, against);
+    const Mask unpolarised = is_zero(now.light.polarisation), kept = here & !absorbed;
+    now.light = select(kept, select(specular, mirrored, Light{diffuse, now.light.polarisation}), now.light);
+    const Real back =
+        select(now.kind == Real(lane_state::kReflector), Real(lane_state::kReflected), now.kind);
+    store(next_, select(here, back, load(next_)));
+    const Real next = select(specular | unpolarised, back, Real(lane_state::kPolarise));
+    now.state = select(here, select(absorbed, Real(lane_state::kAbsorbed), next), now.state);
+    const Real drawn = one + one_if(mixed) + select(specular, zero, Real(2.0));
+    count_drawn(select(here, select(absorbed, one, drawn), zero));
+  }
+
+  /// As core::sample_polarisation, of which at most two points are drawn.
+  void polarise(Now& now, const Mask& here) {
+    draw(here, 2.0);
+    const Random random = next_numbers();
+    const Mask first = core::CirclePoint<Real>(random.bits[0]).accepted;
+    const core::CirclePoint<Real> point(choose(first, random.bits[0], random.bits[1]));
+    const Mask done = here & point.accepted;
+    now.light.polarisation =
+        select(done, core::across_at<Real>(now.light.direction, point), now.light.polarisation);
+    now.state = select(done, load(next_), now.state);
+    count_drawn(select(here, select(first, Real(1.0), Real(2.0)), Real(0.0)));
+  }
+};
+
+}  // namespace
+}  // namespace scintray::transport
