@@ -109,6 +109,25 @@ inline Traced trace(const std::string& text, int threads = 0,
   return traced;
 }
 
+/// All photons of a scene that sensors detect, traced with a width of the lanes.
+/// @param builder  of the surface tables, which are made once for all widths
+inline TracedPhotons trace_with(scene_file::SceneSpec spec, int lane_width, scene::SceneBuilder& builder) {
+  spec.run.lane_width = lane_width;
+  spec.run.photon_list = true;
+  TracedPhotons traced;
+  simulation::RunHooks hooks;
+  hooks.detected = [&](const std::vector<tally::DetectedPhoton>& photons) {
+    traced.list.insert(traced.list.end(), photons.begin(), photons.end());
+  };
+  traced.result = simulation::SimulationPoint(std::move(spec), builder).trace(hooks);
+  return traced;
+}
+
+inline TracedPhotons trace_with(const std::string& scene, int lane_width) {
+  scene::SceneBuilder builder(tables_of_this_build());
+  return trace_with(scene_spec(scene), lane_width, builder);
+}
+
 /// Area of the triangles of a face ("part:face"), mm2.
 inline double face_area(const scene::Scene& scene, const std::string& name) {
   double area = 0.0;

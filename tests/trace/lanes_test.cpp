@@ -19,24 +19,6 @@ using namespace scintray::test;
 
 namespace {
 
-/// @param builder  of the surface tables, which are made once for all widths
-TracedPhotons trace_with(SceneSpec spec, int lane_width, scene::SceneBuilder& builder) {
-  spec.run.lane_width = lane_width;
-  spec.run.photon_list = true;
-  TracedPhotons traced;
-  RunHooks hooks;
-  hooks.detected = [&](const std::vector<DetectedPhoton>& photons) {
-    traced.list.insert(traced.list.end(), photons.begin(), photons.end());
-  };
-  traced.result = SimulationPoint(std::move(spec), builder).trace(hooks);
-  return traced;
-}
-
-TracedPhotons trace_with(const std::string& scene, int lane_width) {
-  scene::SceneBuilder builder(tables_of_this_build());
-  return trace_with(scene_spec(scene), lane_width, builder);
-}
-
 /// A square sensor behind grease, and photons from all of the crystal.
 std::string sensor_and_source(const std::string& side) {
   return R"([[part]]

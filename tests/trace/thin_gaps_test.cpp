@@ -156,7 +156,13 @@ TEST_CASE("Across a thin gap light reaches the face that a search of all triangl
       {"beside a plate", {crystal_at(0, 0), plate}, 0.9},
       {"many beside a plate", {crystal_at(0, 0), crystal_at(0, 2.1), crystal_at(0, -2.1), plate}, 0.9},
       {"square", {crystal_at(0, 0), crystal_at(2.1, 0), crystal_at(0, 2.1), crystal_at(2.1, 2.1)}, 0.95},
-      // Something is in the gap, over some of its length: there is no clear gap over all of it.
+      {"beside a plate that ends early",
+       {crystal_at(0, 0), crystal_at(2.1, 0), make_box({2.03, -1, 1}, {2.07, 3, 12})},
+       0.85},
+      {"beside a plate within",
+       {crystal_at(0, 0), crystal_at(2.1, 0), make_box({2.03, -1, 4}, {2.07, 3, 8})},
+       0.85},
+      // Too little of the gap is beside what is in it.
       {"a wire within",
        {crystal_at(0, 0), crystal_at(2.1, 0), make_box({2.04, -1, 6}, {2.06, 3, 6.02})},
        0.0},

@@ -20,6 +20,7 @@ class LaneScene {
   LaneScene(const scene::Scene& scene, const LaneKinds& kinds);
 
   const LaneRegion& region(core::RegionId id) const { return regions_[id].region; }
+  std::size_t face_count(core::RegionId id) const { return regions_[id].faces.size(); }
   /// Planes of a region, and faces, for lanes in which neither is used.
   LaneRegion any_planes() const;
   /// Whether some region has gaps.
