@@ -81,7 +81,7 @@ sides = ["-x", "+x", "-y", "+y", "+z"]
 [[part]]
 name = "detector"
 box = ["2 mm", "2 mm", "1 mm"]
-place = { touch = "crystal[0,0]", side = "-z" }
+place = { touch = "crystal[0,0]", side = "-z", gap = "0.02 mm" }
 medium = "optical_grease"
 sensor = "ideal"
 [source]
