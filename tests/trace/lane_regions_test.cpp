@@ -2,8 +2,8 @@
 
 #include "physics/traced.hpp"
 #include "scintray/core/lane_width.hpp"
+#include "scintray/transport/batch.hpp"
 #include "scintray/transport/detail/lane_scene.hpp"
-#include "scintray/transport/lane_plan.hpp"
 
 using namespace scintray;
 using namespace scintray::core;

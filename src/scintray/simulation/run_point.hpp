@@ -10,7 +10,7 @@
 #include "scintray/source/light_source.hpp"
 #include "scintray/tally/block_tally.hpp"
 #include "scintray/tally/event_record.hpp"
-#include "scintray/transport/lane_plan.hpp"
+#include "scintray/transport/batch.hpp"
 #include "scintray/transport/step.hpp"
 
 namespace scintray::simulation {

@@ -4,10 +4,9 @@
 #include <optional>
 #include <utility>
 
-#include "scintray/transport/detail/lane_faces.hpp"
+#include "scintray/transport/detail/lane_scene.hpp"
 #include "scintray/transport/detail/photon_numbers.hpp"
 #include "scintray/transport/detail/step_parts.hpp"
-#include "scintray/transport/detail/surface_lanes.hpp"
 
 namespace scintray::transport {
 

@@ -1,4 +1,4 @@
-#include "scintray/transport/detail/lane_faces.hpp"
+#include "scintray/transport/detail/lane_scene.hpp"
 
 #include <cstddef>
 

@@ -190,7 +190,7 @@ std::optional<std::uint32_t> LaneScene::face_at_gap(const scene::Region& region,
 void LaneScene::make_faces(core::RegionId id) {
   const scene::Region& region = scene_.regions[id];
   const Shape& shape = shape_of(region);
-  Region& made = regions_[id];
+  MadeRegion& made = regions_[id];
   for (std::uint32_t number = 0; number < shape.triangles.size(); ++number)
     made.faces.push_back(face(region, shape, number));
   made.region.faces = made.faces.data();

@@ -1,9 +1,8 @@
-#include "scintray/transport/detail/surface_lanes.hpp"
-
 #include <bit>
 #include <utility>
 
 #include "scintray/scene/lane_surface_at.hpp"
+#include "scintray/transport/detail/lane_scene.hpp"
 #include "scintray/transport/detail/photon_numbers.hpp"
 #include "scintray/transport/detail/step_parts.hpp"
 

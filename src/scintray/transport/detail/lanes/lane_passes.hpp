@@ -6,7 +6,9 @@
 /// lanes take part; then they return to the pool. Photons that are not in a stage are masked. Time is
 /// proportional to instructions, so the rejection sampling of facets is repeated on its own.
 
+#include "scintray/transport/detail/lanes/lane_planes.hpp"
 #include "scintray/transport/detail/lanes/lane_surfaces.hpp"
+#include "scintray/transport/detail/propagation_laws.hpp"
 
 namespace scintray::transport {
 namespace {
@@ -14,27 +16,40 @@ namespace {
 template <typename Real, LaneDraws kDraws, bool kOneWavelength>
 class LanePasses : LaneSurfaces<Real, kDraws, kOneWavelength> {
   using Surfaces = LaneSurfaces<Real, kDraws, kOneWavelength>;
-  using Surfaces::cross_gap;
-  using Surfaces::enter_next;
+  using Surfaces::attenuation_per_mm_;
+  using Surfaces::centre_;
+  using Surfaces::cos_before_;
+  using Surfaces::depth_left_;
+  using Surfaces::face_of;
+  using Surfaces::group_index_;
+  using Surfaces::index_;
   using Surfaces::interact_with_table;
   using Surfaces::interactions_;
   using Surfaces::kWidth;
   using Surfaces::load;
   using Surfaces::load_faces;
   using Surfaces::number_of_lanes;
+  using Surfaces::one_if;
   using Surfaces::pass_microsurface;
+  using Surfaces::path_mm_;
   using Surfaces::photon_;
+  using Surfaces::plane_;
   using Surfaces::polarise;
   using Surfaces::pool_;
-  using Surfaces::propagate;
+  using Surfaces::position_;
   using Surfaces::put_back;
   using Surfaces::reflect_at_reflector;
+  using Surfaces::row_of;
+  using Surfaces::segments_;
+  using Surfaces::store;
   using Surfaces::take;
   using Surfaces::take_numbers;
   using Surfaces::take_places;
   using Surfaces::time_ns_;
+  using typename Surfaces::Changed;
   using typename Surfaces::Mask;
   using typename Surfaces::Now;
+  using typename Surfaces::Vector;
   /// Photons go on to their next stage when it has at least this number of lanes; else they return to the
   /// pool.
   static constexpr int kManyLanes = static_cast<int>(kWidth) * 3 / 4;
@@ -77,36 +92,36 @@ class LanePasses : LaneSurfaces<Real, kDraws, kOneWavelength> {
       needed = kManyLanes;
       return true;
     };
-    bool has_moved = false, at_surface = false, has_entered = false;
+    Changed changed;
     for (;;) {
       if (const Mask here = now.state == Real(lane_state::kPropagate); is_time(here)) {
-        if (!has_moved) take_places();
-        has_moved = true;
+        if (!changed.places) take_places();
+        changed.places = true;
         propagate(now, here);
         continue;
       }
       if (const Mask here = now.state == Real(lane_state::kAcross); pool_.has_gaps && is_time(here)) {
-        if (!has_moved) take_places();
-        has_moved = true;
+        if (!changed.places) take_places();
+        changed.places = true;
         cross_gap(now, here);
         continue;
       }
-      if (!at_surface) {
+      if (!changed.surface) {
         const Mask there =
             (now.state > Real(lane_state::kAcross)) & (now.state < Real(lane_state::kFirstWaiting));
         if (number_of_lanes(there) < needed) break;
-        at_surface = true;
-        if (!has_moved) load_faces(now);
+        changed.surface = true;
+        if (!changed.places) load_faces(now);
         take_numbers();
       }
       if (!interact(now, is_time)) break;
       if (const Mask here = now.state == Real(lane_state::kThrough); any(here)) {
-        if (!has_moved) take_places();
-        has_moved = true;
-        if (enter_next(now, here)) has_entered = true;
+        if (!changed.places) take_places();
+        changed.places = true;
+        if (enter_next(now, here)) changed.region = true;
       }
     }
-    put_back(now, has_moved, at_surface, has_entered);
+    put_back(now, changed);
   }
 
   /// The stages at a surface; false when none is passed.
@@ -143,6 +158,155 @@ class LanePasses : LaneSurfaces<Real, kDraws, kOneWavelength> {
       now.state = select(here, select(within, moving, Real(lane_state::kCut)), now.state);
     }
     return some;
+  }
+
+  LaneAhead<Real> nearest_plane(const Vector& local, const Vector& direction) const {
+    LaneAhead<Real> nearest;
+    const LaneRegion& one = photon_[0]->region;
+    bool same = true;
+    std::size_t count = one.count;
+    for (std::size_t lane = 1; lane < kWidth; ++lane) {
+      const LaneRegion& region = photon_[lane]->region;
+      same = same && region.planes == one.planes;
+      count = region.count > count ? region.count : count;
+    }
+    if (same) {
+      for (std::size_t i = 0; i < count; ++i) {
+        const PlanePair& planes = one.planes[i];
+        nearest.take({Real(planes.normal[0]), Real(planes.normal[1]), Real(planes.normal[2])},
+                     Real(planes.first_mm), Real(planes.second_mm), local, direction,
+                     2.0 * static_cast<double>(i));
+      }
+      return nearest;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      const double *first[kWidth], *second[kWidth];
+      for (std::size_t lane = 0; lane < kWidth; ++lane) {
+        const LaneRegion& region = photon_[lane]->region;  // the last planes again where there are fewer
+        const PlanePair& planes = region.planes[i < region.count ? i : region.count - 1];
+        first[lane] = planes.normal;
+        second[lane] = &planes.second_mm;
+      }
+      LaneFours<Real> of_first, of_second;
+      load_fours(first, of_first);
+      load_fours(second, of_second);
+      nearest.take({of_first.of[0], of_first.of[1], of_first.of[2]}, of_first.of[3], of_second.of[0], local,
+                   direction, 2.0 * static_cast<double>(i));
+    }
+    return nearest;
+  }
+
+  /// To the next plane, and through a total reflection there.
+  void propagate(Now& now, const Mask& here) {
+    const LaneAhead<Real> ahead = nearest_plane(load(position_) - load(centre_), now.light.direction);
+    const Real zero(0.0);
+    const Real distance = select(ahead.distance_mm < zero, zero, ahead.distance_mm);
+    store(plane_, select(here, ahead.plane, load(plane_)));
+    move<false>(now, here, here, distance);
+  }
+
+  /// Across the first gap in front of the face to the face beyond, as scene::Accelerator::exit_across_gap().
+  /// Photons that are beside it, or have another beyond it, wait for the scalar code.
+  void cross_gap(Now& now, const Mask& here) {
+    static constexpr LaneGap kNone{};
+    const unsigned lanes = lanes_of(here);
+    const double* gaps[kWidth];
+    for (std::size_t lane = 0; lane < kWidth; ++lane) {
+      const LaneFace& face = photon_[lane]->region.faces[static_cast<std::size_t>(plane_[lane])];
+      gaps[lane] = ((lanes >> lane & 1) != 0 ? face.gap : &kNone)->normal;
+    }
+    const LaneFours<Real> plane = row_of(gaps, 0), first = row_of(gaps, 1), second = row_of(gaps, 2),
+                          last = row_of(gaps, 3);
+    const Vector local = load(position_) - load(centre_), direction = now.light.direction;
+    const Vector normal{plane.of[0], plane.of[1], plane.of[2]};
+    const Vector x{first.of[0], first.of[1], first.of[2]}, y{second.of[0], second.of[1], second.of[2]};
+    const Real at_x = dot(x, local), at_y = dot(y, local);
+    const auto contains = [&](const Real& along_x, const Real& along_y) {
+      return (along_x >= first.of[3]) & (along_x <= last.of[0]) & (along_y >= second.of[3]) &
+             (along_y <= last.of[1]);
+    };
+    // As Accelerator::approach_of(), in its order of additions.
+    const Real cosine = (normal.x * direction.x + normal.z * direction.z) + normal.y * direction.y;
+    const Real height = (normal.x * local.x + normal.z * local.z) + (normal.y * local.y - plane.of[3]);
+    const Real ahead = -height / cosine, zero(0.0);
+    const Real distance = select(ahead > zero, ahead, zero);
+    const Mask found = here & (cosine > zero) & contains(at_x, at_y) &
+                       contains(at_x + distance * dot(x, direction), at_y + distance * dot(y, direction));
+    store(plane_, select(found, last.of[2], load(plane_)));
+    move<true>(now, here, found, select(found, distance, zero));
+  }
+
+  /// Along a segment to a face, and in a region bounded by planes through a total reflection there.
+  /// @param known  its face is
+  template <bool kAcross>
+  void move(Now& now, const Mask& here, const Mask& known, const Real& distance) {
+    load_faces(now);
+    const Real zero(0.0);
+    const Vector position = load(position_), direction = now.light.direction;
+    const Real depth = load(attenuation_per_mm_) * distance, depth_left = load(depth_left_);
+    const Real cosine = dot(direction, now.normal);
+    const Mask total = totally_reflected(cosine, now.least_sin2);
+    const Mask bulk = known & (depth > depth_left);
+    Mask unclear = (!known) | (now.kind == Real(lane_state::kUnclear));
+    if constexpr (kAcross) unclear = unclear | total;  // the scalar code goes on with Embree
+    const Mask moves = here & !(bulk | unclear);
+    const Real path = load(path_mm_), time = load(time_ns_);
+    const Real there_time = time + time_along(distance, load(group_index_));
+    store(position_, select(moves, position + distance * direction, position));
+    store(path_mm_, select(moves, path + distance, path));
+    store(time_ns_, select(moves, there_time, time));
+    store(depth_left_, select(moves, depth_left - depth, depth_left));
+    store(segments_, load(segments_) + one_if(here & (bulk | !unclear)));
+    const Real interactions = load(interactions_) + select(moves, now.counted, zero);
+    store(interactions_, interactions);
+    store(cos_before_, select(here, magnitude(cosine), load(cos_before_)));
+    const Real stays = select(bulk, Real(lane_state::kBulk), Real(lane_state::kUnclear));
+    if constexpr (kAcross) {
+      now.state = select(here, select(moves, now.kind, stays), now.state);
+    } else {
+      now.light = select(moves & total, reflected(now.light, now.normal), now.light);
+      const Mask within =
+          (interactions < Real(pool_.most_interactions)) & (there_time <= Real(pool_.most_time_ns));
+      const Real after_total = select(within, Real(lane_state::kPropagate), Real(lane_state::kCut));
+      now.state = select(here, select(moves, select(total, after_total, now.kind), stays), now.state);
+    }
+  }
+
+  /// Into the region behind the face, where that is in lanes; else the photon waits.
+  /// @return whether some photon has entered it
+  bool enter_next(Now& now, const Mask& here) {
+    const Mask within =
+        (load(interactions_) < Real(pool_.most_interactions)) & (load(time_ns_) <= Real(pool_.most_time_ns));
+    unsigned entering = 0, at_gaps = 0;
+    const double* media[kWidth];
+    const unsigned may = lanes_of(here & within);
+    for (std::size_t lane = 0; lane < kWidth; ++lane) {
+      LanePhoton& photon = *photon_[lane];
+      const LaneRegion* const behind = face_of(now, lane).behind;
+      const bool enters = (may >> lane & 1) != 0 && behind != nullptr;
+      photon.region = *(enters ? behind : &photon.region);
+      media[lane] = photon.optics[photon.region.medium].of;
+      entering |= (enters ? 1U : 0U) << lane;
+      at_gaps |= photon.region.has_gaps << lane;
+    }
+    if (entering == 0) {
+      now.state = select(here, Real(lane_state::kCrossed), now.state);
+      return false;
+    }
+    const Mask enters = Mask::of(entering);
+    const LaneFours<Real> there = row_of(now.face, 4);
+    LaneFours<Real> medium;
+    load_fours(media, medium);
+    const auto set = [&enters](auto& to, const Real& value) { store(to, select(enters, value, load(to))); };
+    for (std::size_t axis = 0; axis < 3; ++axis) set(centre_[axis], there.of[axis]);
+    set(plane_, there.of[3]);
+    set(index_, medium.of[0]);
+    set(group_index_, medium.of[1]);
+    set(attenuation_per_mm_, medium.of[2]);
+    now.side = select(enters, Real(1.0), now.side);
+    const Real moving = select(Mask::of(at_gaps), Real(lane_state::kAcross), Real(lane_state::kPropagate));
+    now.state = select(here, select(enters, moving, Real(lane_state::kCrossed)), now.state);
+    return true;
   }
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-/// The photons of the pool (lane_pool.hpp) that are in the lanes of one vector, and their random numbers:
-/// taken from the pool and put back by rows of four numbers.
+/// The photons of the pool (lane_pool.hpp) that are in the lanes of one vector, their random numbers, and the
+/// faces that they are at: taken from the pool and put back by rows of four numbers.
 
 #include "scintray/core/lanes/lane_fours.hpp"
 #include "scintray/core/philox_laws.hpp"
@@ -17,7 +17,8 @@ using core::LaneFours;
 /// lack numbers, which is faster where vectors are short, as their products have 32 bits.
 enum class LaneDraws { in_lanes, one_by_one };
 
-template <typename Real, LaneDraws kDraws>
+/// @tparam kOneWavelength  LanePool::one_wavelength
+template <typename Real, LaneDraws kDraws, bool kOneWavelength>
 class LanePhotons {
  protected:
   using Mask = typename Real::Mask;
@@ -99,26 +100,29 @@ class LanePhotons {
     store(key_[0], bits_of(stream.of[2]));
     store(key_[1], bits_of(stream.of[3]));
   }
+  /// What of the photons in the lanes may have changed beside Moving::light and time.
+  struct Changed {
+    bool places = false;   ///< take_places() was called
+    bool surface = false;  ///< take_numbers() was
+    bool region = false;   ///< some photon is in another than before
+  };
   /// Puts the photons back into the pool.
-  /// @param has_moved   take_places() was called
-  /// @param at_surface  take_numbers() was
-  /// @param has_entered  some photon is in another region than before
-  void put_back(const Moving& moving, bool has_moved, bool at_surface, bool has_entered) {
+  void put_back(const Moving& moving, const Changed& changed) {
     const Vector direction = moving.light.direction, polarisation = moving.light.polarisation;
     put_row(offsetof(LanePhoton, direction), {{direction.x, direction.y, direction.z, load(time_ns_)}});
     put_row(offsetof(LanePhoton, polarisation),
             {{polarisation.x, polarisation.y, polarisation.z, load(depth_left_)}});
-    if (has_moved) {
+    if (changed.places) {
       const Vector position = load(position_);
       put_row(offsetof(LanePhoton, position), {{position.x, position.y, position.z, load(path_mm_)}});
       put_row(offsetof(LanePhoton, interactions),
               {{load(interactions_), load(segments_), load(plane_), load(cos_before_)}});
     }
-    if (has_entered) {
+    if (changed.region) {
       const Vector centre = load(centre_);
       put_row(offsetof(LanePhoton, centre), {{centre.x, centre.y, centre.z, load(attenuation_per_mm_)}});
     }
-    if (at_surface) {
+    if (changed.surface) {
       put_row(offsetof(LanePhoton, index), {{load(index_), load(group_index_), moving.side, load(next_)}});
       put_row(offsetof(LanePhoton, drawn), {{number_of(load(drawn_)), number_of(load(next_block_)),
                                              number_of(load(key_[0])), number_of(load(key_[1]))}});
@@ -159,6 +163,44 @@ class LanePhotons {
   }
   /// Counts numbers as drawn, whole ones from 0 to 7.
   void count_drawn(const Real& numbers) { store(drawn_, load(drawn_) + whole(numbers)); }
+
+  /// The face that a photon is at.
+  struct Now : Moving {
+    Vector normal;  ///< of the face, out of the region
+    Real kind, index_behind, least_sin2, counted, reflector;
+    const double* face[kWidth];    ///< LaneFace
+    const double* optics[kWidth];  ///< LaneFaceOptics; not set with one wavelength
+  };
+
+  void load_faces(Now& now) const {
+    for (std::size_t lane = 0; lane < kWidth; ++lane) {
+      const LaneFace& face = photon_[lane]->region.faces[static_cast<std::size_t>(plane_[lane])];
+      now.face[lane] = face.normal;
+      if constexpr (!kOneWavelength) now.optics[lane] = photon_[lane]->optics[face.optics].of;
+    }
+    const LaneFours<Real> first = row_of(now.face, 0), second = optics_of(now, 0);
+    now.normal = {first.of[0], first.of[1], first.of[2]};
+    now.kind = first.of[3];
+    now.index_behind = second.of[0];
+    now.least_sin2 = second.of[1];
+    now.counted = second.of[2];
+    now.reflector = second.of[3];
+  }
+  /// Four numbers of LaneFaceOptics, the first, second or third.
+  static LaneFours<Real> optics_of(const Now& now, int which) {
+    return kOneWavelength ? row_of(now.face, which + 1) : row_of(now.optics, which);
+  }
+  /// Four numbers of a record of each lane.
+  static LaneFours<Real> row_of(const double* const (&of)[kWidth], int which) {
+    const double* at[kWidth];
+    for (std::size_t lane = 0; lane < kWidth; ++lane) at[lane] = of[lane] + 4 * which;
+    LaneFours<Real> fours;
+    load_fours(at, fours);
+    return fours;
+  }
+  static const LaneFace& face_of(const Now& now, std::size_t lane) {
+    return *reinterpret_cast<const LaneFace*>(now.face[lane]);
+  }
 
   LanePool& pool_;
   // Of the photon in each lane, as of LanePhoton.

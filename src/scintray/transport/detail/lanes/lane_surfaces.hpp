@@ -4,40 +4,40 @@
 #include "scintray/core/sampling_laws.hpp"
 #include "scintray/optics/facet_laws.hpp"
 #include "scintray/optics/fresnel_laws.hpp"
-#include "scintray/transport/detail/lanes/lane_motion.hpp"
+#include "scintray/transport/detail/lanes/lane_photons.hpp"
 
 namespace scintray::transport {
 namespace {
 
 template <typename Real, LaneDraws kDraws, bool kOneWavelength>
-class LaneSurfaces : protected LaneMotion<Real, kDraws, kOneWavelength> {
-  using Motion = LaneMotion<Real, kDraws, kOneWavelength>;
+class LaneSurfaces : protected LanePhotons<Real, kDraws, kOneWavelength> {
+  using Photons = LanePhotons<Real, kDraws, kOneWavelength>;
 
  protected:
-  using Motion::choose;
-  using Motion::count_drawn;
-  using Motion::draw;
-  using Motion::face_of;
-  using Motion::index_;
-  using Motion::kWidth;
-  using Motion::load;
-  using Motion::next_;
-  using Motion::next_number;
-  using Motion::next_numbers;
-  using Motion::number_of_lanes;
-  using Motion::one_if;
-  using Motion::optics_of;
-  using Motion::store;
-  using typename Motion::Bits;
-  using typename Motion::Light;
-  using typename Motion::Mask;
-  using typename Motion::Now;
-  using typename Motion::Random;
-  using typename Motion::Vector;
+  using Photons::choose;
+  using Photons::count_drawn;
+  using Photons::draw;
+  using Photons::face_of;
+  using Photons::index_;
+  using Photons::kWidth;
+  using Photons::load;
+  using Photons::next_;
+  using Photons::next_number;
+  using Photons::next_numbers;
+  using Photons::number_of_lanes;
+  using Photons::one_if;
+  using Photons::optics_of;
+  using Photons::store;
+  using typename Photons::Bits;
+  using typename Photons::Light;
+  using typename Photons::Mask;
+  using typename Photons::Now;
+  using typename Photons::Random;
+  using typename Photons::Vector;
   /// Facets are redrawn until at most this number of lanes lacks one; those wait for the next pass.
   static constexpr int kFewLanes = static_cast<int>(kWidth / 4);
 
-  explicit LaneSurfaces(LanePool& pool) : Motion(pool) {}
+  explicit LaneSurfaces(LanePool& pool) : Photons(pool) {}
 
   /// Smooth surfaces, and facets, for which one is drawn first; where none is accepted the photon stays.
   void pass_microsurface(Now& now, const Mask& smooth, const Mask& facets) {

@@ -1,5 +1,3 @@
-#include "scintray/transport/lane_plan.hpp"
-
 #include <algorithm>
 #include <optional>
 #include <utility>
@@ -7,6 +5,7 @@
 #include "scintray/core/error.hpp"
 #include "scintray/core/lane_width.hpp"
 #include "scintray/scene/lane_surface_at.hpp"
+#include "scintray/transport/batch.hpp"
 #include "scintray/transport/detail/lane_scene.hpp"
 #include "scintray/transport/detail/lanes/lane_kernels.hpp"
 #include "scintray/transport/detail/step_parts.hpp"
