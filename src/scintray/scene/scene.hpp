@@ -156,9 +156,9 @@ struct Region {
   core::AcceleratorId accelerator;
   std::uint32_t first_link = 0;  ///< of its triangles', in SceneRecords::links
   bool rotated = false;          ///< `rotation` is not the identity
-  /// Photons may be traced in lanes, and gain by it: not rotated, bounded by planes or one convex body, and
-  /// most of the boundary smooth, so that they are often totally reflected, or bounded by planes with
-  /// surfaces for lanes (lane_surface_at.hpp).
+  /// Photons may be traced in lanes, and gain by it: not rotated, bounded by planes or one convex body, or
+  /// with thin gaps, and most of the boundary smooth, so that they are often totally reflected, or, except
+  /// for bodies, with surfaces for lanes (lane_surface_at.hpp).
   bool in_lanes = false;
   bool curved = false;     ///< its accelerator has exact bodies
   bool thin_gaps = false;  ///< it has some: photons in it keep the triangle of the flat face that they are on

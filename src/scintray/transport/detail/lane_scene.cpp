@@ -60,6 +60,12 @@ core::RegionId behind(const scene::Scene& scene, const scene::BoundaryLink& link
   return link.from_back ? interface.front : interface.back;
 }
 
+/// The medium of index_behind(); none: that of the photon.
+core::MediumId medium_behind(const scene::Scene& scene, const scene::BoundaryLink& link) {
+  const core::MediumId next = scene.regions[behind(scene, link)].medium;
+  return scene.optics.is_opaque(next) ? scene.interfaces[link.interface].gap_medium : next;
+}
+
 /// True when the surface and the media are the same at two links of regions of one medium.
 bool are_alike(const scene::Scene& scene, const scene::BoundaryLink& a, const scene::BoundaryLink& b) {
   if (a.interface == b.interface) return a.from_back == b.from_back;
@@ -203,7 +209,12 @@ void LaneScene::make_faces(core::RegionId id) {
   made.region.has_gaps = region.thin_gaps ? 1 : 0;
   made.region.number = static_cast<std::uint32_t>(id.index());
   made.region.medium = static_cast<std::uint32_t>(region.medium.index());
-  if (std::find(media_.begin(), media_.end(), region.medium) == media_.end()) media_.push_back(region.medium);
+  add_medium(region.medium);
+}
+
+void LaneScene::add_medium(core::MediumId medium) {
+  if (medium.has_value() && std::find(media_.begin(), media_.end(), medium) == media_.end())
+    media_.push_back(medium);
 }
 
 LaneFace LaneScene::face(const scene::Region& region, const Shape& shape, std::uint32_t number) {
@@ -260,7 +271,10 @@ std::size_t LaneScene::alike(const scene::BoundaryLink& link, core::MediumId her
     constant.reflector = 1.0;
     constant.specular_share = surface.reflector->specular_share;
   }
-  alike_.push_back({link, here, surface, surface.table ? tables_of(*surface.table) : nullptr, constant});
+  const core::MediumId behind = medium_behind(scene_, link);
+  add_medium(behind);
+  alike_.push_back(
+      {link, here, behind, surface, surface.table ? tables_of(*surface.table) : nullptr, constant});
   return place_of(alike_.size() - 1);
 }
 
@@ -295,17 +309,22 @@ void LaneScene::set_wavelength(double wavelength_nm, AtWavelength& to) const {
     record.group_index = at.group_index;
     record.attenuation_per_mm = at.absorption_per_mm + at.scattering_per_mm;
   }
+  const auto index_of = [&to](core::MediumId medium) {
+    return std::launder(reinterpret_cast<const LaneMedium*>(&to.records[medium.index()]))->index;
+  };
   place(no_surface(), LaneFaceOptics{}).least_sin2 = kNoTotalReflection;
-  source::Photon light;
-  light.wavelength_nm = wavelength_nm;
   for (std::size_t i = 0; i < alike_.size(); ++i) {
     const AlikeFaces& alike = alike_[i];
     const scene::Interface& interface = scene_.interfaces[alike.link.interface];
-    const double here = light.optics.index = to.records[alike.here.index()].of[0];
+    const double here = index_of(alike.here);
     LaneFaceOptics& at = place(place_of(i), alike.constant);
-    at.index_behind = index_behind(scene_, alike.link, light);
+    at.index_behind = alike.behind.has_value() ? index_of(alike.behind) : here;
     at.counted = !interface.plain || here != at.index_behind ? 1.0 : 0.0;
-    at.least_sin2 = interface.plain ? critical_sin2(scene_, alike.link.smooth_to, light) : kNoTotalReflection;
+    at.least_sin2 = kNoTotalReflection;
+    if (alike.link.smooth_to.has_value() && alike.behind.has_value()) {  // as critical_sin2()
+      const double ratio = at.index_behind / here;
+      at.least_sin2 = ratio * ratio;
+    }
     if (alike.surface.table) {
       const auto between = alike.surface.table->between_wavelengths(wavelength_nm);
       at.table = alike.tables + between.first;

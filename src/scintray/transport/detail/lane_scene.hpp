@@ -88,8 +88,8 @@ class LaneScene {
   };
   /// Faces that have the same surface between the same media.
   struct AlikeFaces {
-    scene::BoundaryLink link;  ///< of one of them
-    core::MediumId here;
+    scene::BoundaryLink link;     ///< of one of them
+    core::MediumId here, behind;  ///< behind: of index_behind(); none: as here
     optics::LaneSurface surface;
     const LaneTable* tables = nullptr;  ///< of a table: the first of tables_of()
     LaneFaceOptics constant;            ///< what does not depend on the wavelength; the rest is 0
@@ -99,6 +99,8 @@ class LaneScene {
   static void add_gaps(const scene::Accelerator& accelerator, Shape& shape);
   const Shape& shape_of(const scene::Region& region);
   void make_faces(core::RegionId id);
+  /// Adds one of those whose numbers depend on the wavelength, unless it is there; none is not added.
+  void add_medium(core::MediumId medium);
   LaneFace face(const scene::Region& region, const Shape& shape, std::uint32_t number);
   /// Places among AtWavelength::records: of a face that has no surface for lanes, and of those alike.
   std::size_t no_surface() const { return scene_.optics.media.size(); }
