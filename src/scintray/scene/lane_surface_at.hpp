@@ -64,14 +64,6 @@ inline std::optional<optics::LaneSurface> lane_surface_at(const Scene& scene, co
   return sheet;
 }
 
-/// Shares of the area of a region's boundary.
-struct LaneShares {
-  double smooth = 0.0;  ///< smooth, to another medium
-  double total =
-      0.0;  ///< smooth, each times the share of diffuse light in the region that is totally reflected there
-  double known = 0.0;  ///< with a lane_surface_at()
-};
-
 /// Share of the light of a cosine law that is totally reflected at a smooth boundary: 1 - (n2 / n1)^2, in the
 /// middle of the wavelengths in use.
 inline double totally_reflected(const SceneOptics& optics, core::MediumId here, core::MediumId behind) {
@@ -81,21 +73,41 @@ inline double totally_reflected(const SceneOptics& optics, core::MediumId here, 
   return std::max(0.0, 1.0 - ratio * ratio);
 }
 
+/// What of a boundary triangle matters to lanes.
+struct LaneLink {
+  bool smooth = false;  ///< to another medium
+  double total = 0.0;   ///< share of diffuse light in the region that is totally reflected there
+  bool known = false;   ///< it has a lane_surface_at()
+};
+inline LaneLink lane_link(const Scene& scene, core::MediumId here, const BoundaryLink& link) {
+  LaneLink of;
+  of.smooth = link.smooth_to.has_value();
+  if (of.smooth) of.total = totally_reflected(scene.optics, here, link.smooth_to);
+  of.known = lane_surface_at(scene, link).has_value();
+  return of;
+}
+
+/// Areas of a region's boundary, mm2.
+struct LaneShares {
+  double all = 0.0, smooth = 0.0, known = 0.0;  ///< as of LaneLink
+  double total = 0.0;                           ///< each times LaneLink::total
+
+  void add(double area_mm2, const LaneLink& link) {
+    all += area_mm2;
+    if (link.smooth) smooth += area_mm2;
+    if (link.known) known += area_mm2;
+    total += area_mm2 * link.total;
+  }
+  bool is_most(double part) const { return part > 0.5 * all; }
+};
+
 inline LaneShares lane_shares(const Scene& scene, const Region& region) {
   const Accelerator& accelerator = scene.accelerator(region);
   const BoundaryLink* const links = scene.links_of(region);
-  double all = 0.0;
   LaneShares of;
-  for (std::uint32_t i = 0; i < accelerator.size(); ++i) {
-    const double area = area_of(accelerator.triangle(i));
-    all += area;
-    if (links[i].smooth_to.has_value()) {
-      of.smooth += area;
-      of.total += area * totally_reflected(scene.optics, region.medium, links[i].smooth_to);
-    }
-    if (lane_surface_at(scene, links[i])) of.known += area;
-  }
-  return {of.smooth / all, of.total / all, of.known / all};
+  for (std::uint32_t i = 0; i < accelerator.size(); ++i)
+    of.add(area_of(accelerator.triangle(i)), lane_link(scene, region.medium, links[i]));
+  return of;
 }
 
 }  // namespace scintray::scene

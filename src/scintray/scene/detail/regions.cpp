@@ -151,7 +151,7 @@ void link_smooth_media(Scene& scene) {
     if (region.rotated || !(accelerator.uses_planes() || accelerator.is_convex_body() || region.thin_gaps))
       continue;
     const LaneShares shares = lane_shares(scene, region);
-    region.in_lanes = shares.smooth > 0.5 || (shares.known > 0.5 && !region.curved);
+    region.in_lanes = shares.is_most(shares.smooth) || (shares.is_most(shares.known) && !region.curved);
   }
 }
 
