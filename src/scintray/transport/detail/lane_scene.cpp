@@ -108,8 +108,9 @@ LaneScene::LaneScene(const scene::Scene& scene, const LaneKinds& kinds) : scene_
 LaneRegion LaneScene::any_planes() const {
   static constexpr PlanePair kPlanes{};
   static constexpr LaneFace kFaces[2] = {};
-  LaneRegion region = any_planes_;
-  if (region.planes == nullptr) region.planes = &kPlanes, region.count = 1;
+  LaneRegion region;
+  region.planes = any_planes_.planes == nullptr ? &kPlanes : any_planes_.planes;
+  region.count = any_planes_.planes == nullptr ? 1 : any_planes_.count;
   region.faces = kFaces;
   return region;
 }

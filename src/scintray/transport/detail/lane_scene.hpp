@@ -51,7 +51,7 @@ class LaneScene {
 
   const LaneRegion& region(core::RegionId id) const { return regions_[id].region; }
   std::size_t face_count(core::RegionId id) const { return regions_[id].faces.size(); }
-  /// Planes of a region, and faces, for lanes in which neither is used.
+  /// Planes and faces for lanes without a photon, in which neither is used.
   LaneRegion any_planes() const;
   /// Whether some region has gaps.
   bool has_gaps() const { return has_gaps_; }
@@ -75,7 +75,7 @@ class LaneScene {
  private:
   /// Planes or gaps around regions of one shape.
   struct Shape {
-    std::vector<PlanePair> planes;  ///< one without a plane where there are gaps
+    std::vector<PlanePair> planes;  ///< none where there are gaps
     std::vector<LaneGap> gaps;
     std::vector<std::uint32_t> triangles;         ///< of each face; two per PlanePair
     std::vector<bool> mixed;                      ///< likewise: the face leads to several regions

@@ -23,7 +23,7 @@ inline constexpr double kSmooth = 3.0;     ///< Fresnel's equations at the mean 
 inline constexpr double kFacets = 4.0;     ///< a facet is drawn, then Fresnel's equations
 inline constexpr double kTable = 5.0;      ///< a surface table
 inline constexpr double kReflector = 6.0;  ///< the reflector behind the microsurface
-inline constexpr double kPolarise = 7.0;   ///< a polarisation is drawn; LanePool::next follows
+inline constexpr double kPolarise = 7.0;   ///< a polarisation is drawn; LanePhoton::next follows
 // Two that are left at once.
 inline constexpr double kReflected = 8.0;  ///< back in its region
 inline constexpr double kThrough = 9.0;    ///< through its surface into the region behind
