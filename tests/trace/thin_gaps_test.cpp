@@ -161,7 +161,7 @@ TEST_CASE("Across a thin gap light reaches the face that a search of all triangl
        0.85},
       {"beside a plate within",
        {crystal_at(0, 0), crystal_at(2.1, 0), make_box({2.03, -1, 4}, {2.07, 3, 8})},
-       0.85},
+       0.8},
       // Too little of the gap is beside what is in it.
       {"a wire within",
        {crystal_at(0, 0), crystal_at(2.1, 0), make_box({2.04, -1, 6}, {2.06, 3, 6.02})},
