@@ -259,6 +259,7 @@ void LaneScene::link_faces(core::RegionId id, const LaneKinds& kinds) {
     }
     for (int axis = 0; axis < 3; ++axis) face.behind_centre[axis] = there.centre[axis];
     face.behind = &regions_[next].region;
+    has_neighbours_ = true;
   }
 }
 

@@ -55,6 +55,8 @@ class LaneScene {
   LaneRegion any_planes() const;
   /// Whether some region has gaps.
   bool has_gaps() const { return has_gaps_; }
+  /// Whether some face has a region behind it that is in lanes as well.
+  bool has_neighbours() const { return has_neighbours_; }
   /// Whether all light has one wavelength.
   bool has_one_wavelength() const { return scene_.low_nm == scene_.high_nm; }
   /// Number of the face, at a gap, of a triangle of a region with thin gaps; nothing where there is no gap in
@@ -119,7 +121,7 @@ class LaneScene {
   core::IdVector<core::AcceleratorId, Shape> shapes_;  ///< without triangles: not made
   core::IdVector<core::RegionId, MadeRegion> regions_;
   LaneRegion any_planes_;
-  bool has_gaps_ = false;
+  bool has_gaps_ = false, has_neighbours_ = false;
   std::vector<AlikeFaces> alike_;
   std::vector<core::MediumId> media_;
   std::map<const optics::SurfaceTable*, std::vector<LaneTable>> tables_;

@@ -37,6 +37,7 @@ SurfaceLanes::SurfaceLanes(const scene::Scene& scene, const LaneScene& lanes, co
   pool_.most_time_ns = limits.time_ns;
   pool_.one_wavelength = lanes.has_one_wavelength();
   if (pool_.one_wavelength) lanes.set_wavelength(scene.low_nm, at_first_);
+  pool_.has_neighbours = lanes.has_neighbours();
   pool_.has_gaps = lane_scene_.has_gaps();
   for (std::uint32_t slot = LanePool::kPhotons; slot-- > 0;) free_.push_back(slot);
 }

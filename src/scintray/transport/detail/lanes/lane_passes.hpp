@@ -116,6 +116,10 @@ class LanePasses : LaneSurfaces<Real, kDraws, kOneWavelength> {
       }
       if (!interact(now, is_time)) break;
       if (const Mask here = now.state == Real(lane_state::kThrough); any(here)) {
+        if (!pool_.has_neighbours) {
+          now.state = select(here, Real(lane_state::kCrossed), now.state);
+          continue;
+        }
         if (!changed.places) take_places();
         changed.places = true;
         if (enter_next(now, here)) changed.region = true;

@@ -162,6 +162,7 @@ struct LanePool {
 
   double most_interactions, most_time_ns;  ///< limits as of PropagationLimits
   bool has_gaps;                           ///< some region has
+  bool has_neighbours;                     ///< some face has a region behind it
   bool one_wavelength;                     ///< all photons have it
 };
 
