@@ -250,11 +250,8 @@ bool reaches_sensor(const scene::Scene& scene, const scene::Interface& interface
 
 double index_behind(const scene::Scene& scene, const scene::BoundaryLink& link,
                     const source::Photon& photon) {
-  const scene::Interface& interface = scene.interfaces[link.interface];
-  const core::MediumId next = scene.regions[link.from_back ? interface.front : interface.back].medium;
-  if (!scene.optics.is_opaque(next)) return scene.optics.index(next, photon.wavelength_nm);
-  return interface.gap_medium.has_value() ? scene.optics.index(interface.gap_medium, photon.wavelength_nm)
-                                          : photon.optics.index;
+  const core::MediumId medium = medium_behind(scene, link);
+  return medium.has_value() ? scene.optics.index(medium, photon.wavelength_nm) : photon.optics.index;
 }
 
 Step cross_boundary(const scene::Scene& scene, const BoundaryPlace& at, source::Photon& photon) {

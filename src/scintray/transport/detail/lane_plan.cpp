@@ -76,9 +76,7 @@ class KindSearch {
   Way way_of(const scene::BoundaryLink& link) {
     const Side& side = side_of(link);
     if (!side.may_cross) return side.otherwise;
-    const scene::Interface& interface = scene_.interfaces[link.interface];
-    const core::RegionId behind = link.from_back ? interface.front : interface.back;
-    return kinds_[behind] == LaneKind::surfaces ? Way::crosses : side.otherwise;
+    return kinds_[region_behind(scene_, link)] == LaneKind::surfaces ? Way::crosses : side.otherwise;
   }
   /// Areas of the triangles around a region, mm2.
   const std::vector<double>& areas_of(const scene::Region& region) {

@@ -55,17 +55,6 @@ double least_total_sin2(double n1, double n2) {
   return least;
 }
 
-core::RegionId behind(const scene::Scene& scene, const scene::BoundaryLink& link) {
-  const scene::Interface& interface = scene.interfaces[link.interface];
-  return link.from_back ? interface.front : interface.back;
-}
-
-/// The medium of index_behind(); none: that of the photon.
-core::MediumId medium_behind(const scene::Scene& scene, const scene::BoundaryLink& link) {
-  const core::MediumId next = scene.regions[behind(scene, link)].medium;
-  return scene.optics.is_opaque(next) ? scene.interfaces[link.interface].gap_medium : next;
-}
-
 /// True when the surface and the media are the same at two links of regions of one medium.
 bool are_alike(const scene::Scene& scene, const scene::BoundaryLink& a, const scene::BoundaryLink& b) {
   if (a.interface == b.interface) return a.from_back == b.from_back;
@@ -76,7 +65,7 @@ bool are_alike(const scene::Scene& scene, const scene::BoundaryLink& a, const sc
          at_a.gap_medium == at_b.gap_medium &&
          scene::absorbing_surface(scene, a) == scene::absorbing_surface(scene, b) &&
          a.smooth_to == b.smooth_to &&
-         scene.regions[behind(scene, a)].medium == scene.regions[behind(scene, b)].medium;
+         scene.regions[region_behind(scene, a)].medium == scene.regions[region_behind(scene, b)].medium;
 }
 
 }  // namespace
@@ -246,7 +235,7 @@ void LaneScene::link_faces(core::RegionId id, const LaneKinds& kinds) {
     if (face.optics == no_surface()) continue;
     const std::uint32_t triangle = shape.triangles[number];
     const scene::BoundaryLink& link = scene_.link(region, triangle);
-    const core::RegionId next = behind(scene_, link);
+    const core::RegionId next = region_behind(scene_, link);
     if (kinds[next] != LaneKind::surfaces ||
         reaches_sensor(scene_, scene_.interfaces[link.interface], link.from_back))
       continue;
@@ -322,11 +311,8 @@ void LaneScene::set_wavelength(double wavelength_nm, AtWavelength& to) const {
     LaneFaceOptics& at = place(place_of(i), alike.constant);
     at.index_behind = alike.behind.has_value() ? index_of(alike.behind) : here;
     at.counted = !interface.plain || here != at.index_behind ? 1.0 : 0.0;
-    at.least_sin2 = kNoTotalReflection;
-    if (alike.link.smooth_to.has_value() && alike.behind.has_value()) {  // as critical_sin2()
-      const double ratio = at.index_behind / here;
-      at.least_sin2 = ratio * ratio;
-    }
+    const bool plain = alike.link.smooth_to.has_value() && alike.behind.has_value();
+    at.least_sin2 = plain ? critical_sin2(here, at.index_behind) : kNoTotalReflection;
     if (alike.surface.table) {
       const auto between = alike.surface.table->between_wavelengths(wavelength_nm);
       at.table = alike.tables + between.first;

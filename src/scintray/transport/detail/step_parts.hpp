@@ -24,12 +24,27 @@ struct Propagation {
   std::uint32_t resolved = 0;                   ///< ray queries that the exact query resolved
 };
 
+/// sin^2 of the critical angle from a refractive index to another; above 1 without total reflection.
+inline double critical_sin2(double index_here, double index_behind) {
+  const double ratio = index_behind / index_here;
+  return ratio * ratio;
+}
 /// sin^2 of the critical angle towards a medium; above 1 without total reflection, as for no medium.
 inline double critical_sin2(const scene::Scene& scene, core::MediumId medium, const source::Photon& photon) {
   constexpr double kNever = 2.0;
   if (!medium.has_value() || scene.optics.is_opaque(medium)) return kNever;
-  const double ratio = scene.optics.index(medium, photon.wavelength_nm) / photon.optics.index;
-  return ratio * ratio;
+  return critical_sin2(photon.optics.index, scene.optics.index(medium, photon.wavelength_nm));
+}
+
+/// Region behind a boundary.
+inline core::RegionId region_behind(const scene::Scene& scene, const scene::BoundaryLink& link) {
+  const scene::Interface& interface = scene.interfaces[link.interface];
+  return link.from_back ? interface.front : interface.back;
+}
+/// The medium of index_behind(); none: that of the photon.
+inline core::MediumId medium_behind(const scene::Scene& scene, const scene::BoundaryLink& link) {
+  const core::MediumId next = scene.regions[region_behind(scene, link)].medium;
+  return scene.optics.is_opaque(next) ? scene.interfaces[link.interface].gap_medium : next;
 }
 
 /// Refractive index behind a boundary of the photon's region, at its wavelength: of the next region, or for
