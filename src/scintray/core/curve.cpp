@@ -27,6 +27,18 @@ void check_table(const std::vector<double>& x, const std::vector<double>& y) {
   }
 }
 
+/// Number of values at or below one, of values that increase. Without branches, which would be predicted
+/// wrongly half of the time.
+std::size_t count_up_to(const std::vector<double>& values, double x) {
+  const double* first = values.data();
+  for (std::size_t left = values.size(); left > 1;) {
+    const std::size_t half = left / 2;
+    first += half * static_cast<std::size_t>(first[half - 1] <= x);
+    left -= half;
+  }
+  return static_cast<std::size_t>(first - values.data()) + static_cast<std::size_t>(*first <= x);
+}
+
 }  // namespace
 
 Curve::Curve(std::vector<double> x, std::vector<double> y) : x_(std::move(x)), y_(std::move(y)) {
@@ -38,7 +50,7 @@ Curve Curve::constant(double value) { return Curve({0.0}, {value}); }
 double Curve::operator()(double x) const {
   if (x_.size() == 1 || x <= x_.front()) return y_.front();
   if (x >= x_.back()) return y_.back();
-  const std::size_t i = static_cast<std::size_t>(std::upper_bound(x_.begin(), x_.end(), x) - x_.begin());
+  const std::size_t i = count_up_to(x_, x);
   const double t = (x - x_[i - 1]) / (x_[i] - x_[i - 1]);
   return y_[i - 1] + t * (y_[i] - y_[i - 1]);
 }
@@ -52,7 +64,7 @@ double Curve::derivative(double x) const {
   };
   if (x <= x_.front()) return slope_at(0);
   if (x >= x_.back()) return slope_at(x_.size() - 1);
-  const std::size_t i = static_cast<std::size_t>(std::upper_bound(x_.begin(), x_.end(), x) - x_.begin());
+  const std::size_t i = count_up_to(x_, x);
   const double t = (x - x_[i - 1]) / (x_[i] - x_[i - 1]);
   return (1.0 - t) * slope_at(i - 1) + t * slope_at(i);
 }

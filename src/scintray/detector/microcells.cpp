@@ -69,9 +69,10 @@ class FiringCells {
   void spread(const Carrier& carrier, double charge, core::Rng& rng) {
     if (neighbour_rate_ <= 0.0) return;
     std::array<std::uint32_t, 8> buffer{};
-    const auto around = grid_.neighbours(carrier.cell, buffer);
     const double rate = neighbour_rate_ * charge;
     double index = std::floor(core::sample_exponential(rng) / rate);
+    if (index >= static_cast<double>(buffer.size())) return;
+    const auto around = grid_.neighbours(carrier.cell, buffer);
     while (index < static_cast<double>(around.size())) {
       at_once_.push_back(
           {carrier.time_ns, around[static_cast<std::size_t>(index)], AvalancheCause::crosstalk});

@@ -63,6 +63,7 @@ void PulseShape::check_stages(double mean_ns, double squares) {
     throw core::InternalError("a pulse of more stages than there is room for");
   const auto [slowest, fastest] = std::minmax_element(rate_per_ns_.begin(), rate_per_ns_.end());
   fastest_per_ns_ = *fastest;
+  for (const double rate : rate_per_ns_) share_of_fastest_.push_back(rate / fastest_per_ns_);
   // The tail falls no slower than its longest stage; each stage delays it by no more than a few times its
   // own.
   duration_ns_ = mean_ns - std::log(kTail) / *slowest + 3.0 * std::sqrt(squares);
@@ -106,8 +107,7 @@ void PulseShape::pass(State& state, double time_ns) const {
     for (double m = 1.0; weight > 1e-20 || m < piece; m += 1.0) {
       for (std::size_t i = 0; i < stages; ++i) sum[i] += weight * term[i];
       for (std::size_t i = stages; i-- > 0;) {
-        const double share = rate_per_ns_[i] / fastest_per_ns_;
-        term[i] += share * ((i > 0 ? term[i - 1] : 0.0) - term[i]);
+        term[i] += share_of_fastest_[i] * ((i > 0 ? term[i - 1] : 0.0) - term[i]);
       }
       weight *= piece / m;
     }
@@ -116,8 +116,22 @@ void PulseShape::pass(State& state, double time_ns) const {
 }
 
 void PulseShape::step(State& state) const {
+  // The usual numbers of stages by loops of known length: a waveform is mostly such steps.
+  switch (rate_per_ns_.size()) {
+    case 2:
+      return step_of(2, state);
+    case 3:
+      return step_of(3, state);
+    case 4:
+      return step_of(4, state);
+    default:
+      return step_of(rate_per_ns_.size(), state);
+  }
+}
+
+[[gnu::always_inline]] inline void PulseShape::step_of(std::size_t stages, State& state) const {
   // The last stage first: each depends on those before it alone.
-  for (std::size_t to = rate_per_ns_.size(); to-- > 0;) {
+  for (std::size_t to = stages; to-- > 0;) {
     double passed = 0.0;
     for (std::size_t from = 0; from <= to; ++from) passed += state[from] * per_step_[from][to];
     state[to] = passed;

@@ -66,10 +66,12 @@ class PulseShape {
   State impulse() const;
   void pass(State& state, double time_ns) const;
   void step(State& state) const;  ///< by one period
+  void step_of(std::size_t stages, State& state) const;
   State after(double time_ns) const;
   double held(const State& state) const;
 
-  std::vector<double> rate_per_ns_;  ///< of each stage
+  std::vector<double> rate_per_ns_;       ///< of each stage
+  std::vector<double> share_of_fastest_;  ///< likewise, over the greatest of them
   double fastest_per_ns_ = 0.0;
   double period_ns_, scale_ = 1.0, duration_ns_ = 0.0;
   std::vector<State> grid_;      ///< an avalanche's state at equal fractions of a period

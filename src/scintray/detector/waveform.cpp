@@ -96,8 +96,13 @@ GateIntegral gate_of(const ReadoutSpec& readout, std::size_t samples) {
   if (!readout.gate_ns) return {0, samples, 0.0};
   const auto [open_ns, close_ns] = *readout.gate_ns;
   const auto before = [&](double gate_ns) {
-    std::size_t i = 0;
-    while (i < samples && static_cast<double>(i) * readout.period_ns - readout.before_ns < gate_ns) ++i;
+    const auto precedes = [&](std::size_t i) {
+      return static_cast<double>(i) * readout.period_ns - readout.before_ns < gate_ns;
+    };
+    const double about = std::floor((gate_ns + readout.before_ns) / readout.period_ns);
+    auto i = static_cast<std::size_t>(std::clamp(about, 0.0, static_cast<double>(samples)));
+    while (i > 0 && !precedes(i - 1)) --i;
+    while (i < samples && precedes(i)) ++i;
     return i;
   };
   const std::size_t first = before(open_ns);
@@ -105,15 +110,15 @@ GateIntegral gate_of(const ReadoutSpec& readout, std::size_t samples) {
 }
 
 std::vector<float> digitize(std::span<const double> waveform, const ReadoutSpec& readout, core::Rng& rng) {
-  std::vector<double> noise(readout.noise > 0.0 ? waveform.size() : 0);
-  core::sample_normals(rng, noise);
-  std::vector<float> samples;
-  samples.reserve(waveform.size());
-  for (std::size_t i = 0; i < waveform.size(); ++i) {
-    const double noisy = noise.empty() ? waveform[i] : waveform[i] + readout.noise * noise[i];
-    samples.push_back(static_cast<float>(readout.adc_bits > 0 ? on_codes(noisy, readout) : noisy));
+  std::vector<double> noisy(waveform.begin(), waveform.end());
+  if (readout.noise > 0.0) {
+    std::vector<double> noise(waveform.size());
+    core::sample_normals(rng, noise);
+    for (std::size_t i = 0; i < noise.size(); ++i) noisy[i] += readout.noise * noise[i];
   }
-  return samples;
+  if (readout.adc_bits > 0)
+    for (double& sample : noisy) sample = on_codes(sample, readout);
+  return {noisy.begin(), noisy.end()};
 }
 
 PulseMeasurement measure(std::span<const float> waveform, const ReadoutSpec& readout, double pulse_area_ns) {

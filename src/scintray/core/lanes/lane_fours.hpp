@@ -12,6 +12,19 @@ struct LaneFours {
   Real of[4];
 };
 
+/// Places at the same distance from the records of all lanes. As part of the address of a load, the distance
+/// takes no instruction; pointers computed beforehand are added up in vectors and taken apart again.
+template <typename Record>
+struct LanePlaces {
+  Record* const* records;  ///< one of each lane
+  std::size_t bytes;
+
+  const double* operator[](std::size_t lane) const {
+    return reinterpret_cast<const double*>(reinterpret_cast<const char*>(records[lane]) + bytes);
+  }
+  LanePlaces operator+(std::size_t lanes) const { return {records + lanes, bytes}; }
+};
+
 /// Stores four 64-bit numbers of each lane at two places of its own.
 static inline void store_fours(const LaneBits<xsimd::sse2>* words, std::uint64_t* const* first,
                                std::uint64_t* const* second) {
@@ -25,7 +38,8 @@ static inline void store_fours(const LaneBits<xsimd::sse2>* words, std::uint64_t
   }
 }
 
-static inline void load_fours(const double* const* at, LaneFours<LaneReal<xsimd::sse2>>& to) {
+template <typename At>
+void load_fours(const At& at, LaneFours<LaneReal<xsimd::sse2>>& to) {
   for (int half = 0; half < 2; ++half) {
     const __m128d a = _mm_loadu_pd(at[0] + 2 * half), b = _mm_loadu_pd(at[1] + 2 * half);
     to.of[2 * half].lanes = _mm_unpacklo_pd(a, b);
@@ -45,7 +59,8 @@ void store_by_lane(const LaneBits<xsimd::avx2>* words, const Store& store) {
   store(2, _mm256_permute2x128_si256(ab, cd, 0x31));
   store(3, _mm256_permute2x128_si256(ba, dc, 0x31));
 }
-static inline void load_fours(const double* const* at, LaneFours<LaneReal<xsimd::avx2>>& to) {
+template <typename At>
+void load_fours(const At& at, LaneFours<LaneReal<xsimd::avx2>>& to) {
   const __m256d a = _mm256_loadu_pd(at[0]), b = _mm256_loadu_pd(at[1]);
   const __m256d c = _mm256_loadu_pd(at[2]), d = _mm256_loadu_pd(at[3]);
   const __m256d ab = _mm256_unpacklo_pd(a, b), ba = _mm256_unpackhi_pd(a, b);
@@ -76,8 +91,9 @@ void store_by_lane(const LaneBits<xsimd::avx512f>* words, const Store& store) {
   two(4, _mm512_unpacklo_epi64(cd, dc));
   two(5, _mm512_unpackhi_epi64(cd, dc));
 }
-static inline void load_fours(const double* const* at, LaneFours<LaneReal<xsimd::avx512f>>& to) {
-  const auto two = [&](int lane) {
+template <typename At>
+void load_fours(const At& at, LaneFours<LaneReal<xsimd::avx512f>>& to) {
+  const auto two = [&](std::size_t lane) {
     return _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_loadu_pd(at[lane])),
                               _mm256_loadu_pd(at[lane + 2]), 1);
   };
@@ -109,13 +125,14 @@ void store_fours(const Bits* words, std::uint64_t* const* first, std::uint64_t* 
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(second[lane]), four);
   });
 }
-/// Stores four numbers of each lane at a place of its own.
-template <typename Real>
-void store_fours(const LaneFours<Real>& fours, double* const* to) {
+/// Stores four numbers of each lane at places of these.
+template <typename Real, typename Record>
+void store_fours(const LaneFours<Real>& fours, const LanePlaces<Record>& to) {
   const typename Real::Bits words[] = {bits_of(fours.of[0]), bits_of(fours.of[1]), bits_of(fours.of[2]),
                                        bits_of(fours.of[3])};
   store_by_lane(words, [&](int lane, __m256i four) {
-    _mm256_storeu_si256(reinterpret_cast<__m256i*>(to[lane]), four);
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(const_cast<double*>(to[static_cast<std::size_t>(lane)])),
+                        four);
   });
 }
 #endif
@@ -139,8 +156,8 @@ void load_ones(const double* const* at, LaneRealPair<Arch>& to) {
   load_ones(at, to.a);
   load_ones(at + LaneReal<Arch>::kWidth, to.b);
 }
-template <typename Arch>
-void load_fours(const double* const* at, LaneFours<LaneRealPair<Arch>>& to) {
+template <typename At, typename Arch>
+void load_fours(const At& at, LaneFours<LaneRealPair<Arch>>& to) {
   LaneFours<LaneReal<Arch>> a, b;
   load_fours(at, a);
   load_fours(at + LaneReal<Arch>::kWidth, b);

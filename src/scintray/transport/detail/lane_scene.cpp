@@ -1,7 +1,7 @@
 #include "scintray/transport/detail/lane_scene.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <bit>
 #include <limits>
 #include <map>
 #include <new>
@@ -43,6 +43,11 @@ void set_facets(const optics::FacetSurface& facets, LaneFaceOptics& face) {
   face.by_area = limits.by_area ? 1.0 : 0.0;
 }
 
+/// The positive number that is `steps` numbers of double precision above another.
+double next_to(double positive, std::int64_t steps) {
+  return std::bit_cast<double>(std::bit_cast<std::int64_t>(positive) + steps);
+}
+
 /// The least 1 - cosine^2 for which Fresnel's equations (optics::RefractionOf) find total reflection, to the
 /// last bit; for a surface that is met as Fresnel's equations see it, not by the critical angle of a plain
 /// interface. Products of positive numbers are monotonic, so that there is one.
@@ -50,9 +55,14 @@ double least_total_sin2(double n1, double n2) {
   const double ratio = n1 / n2, ratio2 = ratio * ratio;
   if (!(ratio2 > 1.0)) return kNoTotalReflection;
   double least = 1.0 / ratio2;
-  while (ratio2 * least < 1.0) least = std::nextafter(least, 2.0);
-  while (ratio2 * std::nextafter(least, 0.0) >= 1.0) least = std::nextafter(least, 0.0);
+  while (ratio2 * least < 1.0) least = next_to(least, 1);
+  while (ratio2 * next_to(least, -1) >= 1.0) least = next_to(least, -1);
   return least;
+}
+
+template <typename Record>
+Record& record_at(std::vector<LaneRecord>& records, std::size_t place) {
+  return *std::launder(reinterpret_cast<Record*>(&records[place]));
 }
 
 /// True when the surface and the media are the same at two links of regions of one medium.
@@ -85,12 +95,13 @@ LaneScene::LaneScene(const scene::Scene& scene, const LaneKinds& kinds) : scene_
     region.planes = any_planes().planes;
     region.count = any_planes().count;
   });
+  initial_ = initial_records();
   if (!has_one_wavelength()) return;
   AtWavelength at;
   set_wavelength(scene.low_nm, at);
   each([&](core::RegionId id) {
     for (LaneFace& face : regions_[id].faces)
-      face.at_one = *std::launder(reinterpret_cast<const LaneFaceOptics*>(&at.records[face.optics]));
+      face.at_one = record_at<LaneFaceOptics>(at.records, face.optics);
   });
 }
 
@@ -256,16 +267,23 @@ std::size_t LaneScene::alike(const scene::BoundaryLink& link, core::MediumId her
                              const optics::LaneSurface& surface) {
   for (std::size_t i = 0; i < alike_.size(); ++i)
     if (alike_[i].here == here && are_alike(scene_, alike_[i].link, link)) return place_of(i);
-  LaneFaceOptics constant{};
-  if (surface.facets) set_facets(*surface.facets, constant);
+  const scene::Interface& interface = scene_.interfaces[link.interface];
+  AlikeFaces faces{link, here, medium_behind(scene_, link), surface};
+  if (surface.table) faces.tables = tables_of(*surface.table);
+  if (surface.facets) set_facets(*surface.facets, faces.constant);
   if (surface.reflector) {
-    constant.reflector = 1.0;
-    constant.specular_share = surface.reflector->specular_share;
+    faces.constant.reflector = 1.0;
+    faces.constant.specular_share = surface.reflector->specular_share;
+    const optics::Surface& stack = scene_.surfaces[scene::first_surface(interface, link.from_back).id];
+    if (surface.micro != Micro::painted && stack.reflector) faces.gap_index = &stack.gap_index;
   }
-  const core::MediumId behind = medium_behind(scene_, link);
-  add_medium(behind);
-  alike_.push_back(
-      {link, here, behind, surface, surface.table ? tables_of(*surface.table) : nullptr, constant});
+  faces.plain = interface.plain;
+  if (!interface.plain && surface.micro == Micro::smooth)
+    faces.total = AlikeFaces::Total::fresnel;
+  else if (link.smooth_to.has_value() && faces.behind.has_value())
+    faces.total = AlikeFaces::Total::critical;
+  add_medium(faces.behind);
+  alike_.push_back(faces);
   return place_of(alike_.size() - 1);
 }
 
@@ -286,49 +304,44 @@ const LaneTable* LaneScene::tables_of(const optics::SurfaceTable& table) {
   return known.data();
 }
 
+std::vector<LaneRecord> LaneScene::initial_records() const {
+  std::vector<LaneRecord> records(place_of(alike_.size()));
+  for (const core::MediumId medium : media_) new (&records[medium.index()]) LaneMedium{};
+  (new (&records[no_surface()]) LaneFaceOptics{})->least_sin2 = kNoTotalReflection;
+  for (std::size_t i = 0; i < alike_.size(); ++i)
+    (new (&records[place_of(i)]) LaneFaceOptics(alike_[i].constant))->least_sin2 = kNoTotalReflection;
+  return records;
+}
+
 void LaneScene::set_wavelength(double wavelength_nm, AtWavelength& to) const {
   to.wavelength_nm = wavelength_nm;
-  to.records.resize(place_of(alike_.size()));
-  // In place: a copy of what was just written would wait for it.
-  const auto place = [&to]<typename Record>(std::size_t at, const Record& record) -> Record& {
-    return *new (&to.records[at]) Record(record);
-  };
+  if (to.records.empty()) to.records = initial_;
   for (const core::MediumId medium : media_) {
     const optics::MediumOptics at = scene_.optics.at(medium, wavelength_nm);
-    LaneMedium& record = place(medium.index(), LaneMedium{});
+    auto& record = record_at<LaneMedium>(to.records, medium.index());
     record.index = at.index;
     record.group_index = at.group_index;
     record.attenuation_per_mm = at.absorption_per_mm + at.scattering_per_mm;
   }
   const auto index_of = [&to](core::MediumId medium) {
-    return std::launder(reinterpret_cast<const LaneMedium*>(&to.records[medium.index()]))->index;
+    return record_at<LaneMedium>(to.records, medium.index()).index;
   };
-  place(no_surface(), LaneFaceOptics{}).least_sin2 = kNoTotalReflection;
   for (std::size_t i = 0; i < alike_.size(); ++i) {
     const AlikeFaces& alike = alike_[i];
-    const scene::Interface& interface = scene_.interfaces[alike.link.interface];
-    const double here = index_of(alike.here);
-    LaneFaceOptics& at = place(place_of(i), alike.constant);
-    at.index_behind = alike.behind.has_value() ? index_of(alike.behind) : here;
-    at.counted = !interface.plain || here != at.index_behind ? 1.0 : 0.0;
-    const bool plain = alike.link.smooth_to.has_value() && alike.behind.has_value();
-    at.least_sin2 = plain ? critical_sin2(here, at.index_behind) : kNoTotalReflection;
+    auto& at = record_at<LaneFaceOptics>(to.records, place_of(i));
+    const double here = index_of(alike.here), next = alike.behind.has_value() ? index_of(alike.behind) : here;
+    const double beneath = alike.surface.micro == Micro::painted ? here : next;
+    const double index_behind = alike.gap_index != nullptr ? (*alike.gap_index)(wavelength_nm) : beneath;
+    at.index_behind = index_behind;
+    at.counted = !alike.plain || here != next ? 1.0 : 0.0;
+    if (alike.total == AlikeFaces::Total::critical) at.least_sin2 = critical_sin2(here, next);
+    if (alike.total == AlikeFaces::Total::fresnel) at.least_sin2 = least_total_sin2(here, index_behind);
     if (alike.surface.table) {
       const auto between = alike.surface.table->between_wavelengths(wavelength_nm);
       at.table = alike.tables + between.first;
       at.to_next = between.to_next ? std::max(0.0, *between.to_next) : -1.0;
     }
-    if (alike.surface.reflector) {
-      const optics::Surface& stack =
-          scene_.surfaces[scene::first_surface(interface, alike.link.from_back).id];
-      if (alike.surface.micro == Micro::painted)
-        at.index_behind = here;
-      else if (stack.reflector)
-        at.index_behind = stack.gap_index(wavelength_nm);
-      at.reflectance = alike.surface.reflector->reflectance(wavelength_nm);
-    }
-    if (!interface.plain && alike.surface.micro == Micro::smooth)
-      at.least_sin2 = least_total_sin2(here, at.index_behind);
+    if (alike.surface.reflector) at.reflectance = alike.surface.reflector->reflectance(wavelength_nm);
   }
 }
 

@@ -90,11 +90,17 @@ class LaneScene {
   };
   /// Faces that have the same surface between the same media.
   struct AlikeFaces {
+    /// What decides on total reflection at a smooth surface: nothing (there is none, or the surface is
+    /// rough), the critical angle of a plain interface, or Fresnel's equations.
+    enum class Total { none, critical, fresnel };
     scene::BoundaryLink link;     ///< of one of them
     core::MediumId here, behind;  ///< behind: of index_behind(); none: as here
     optics::LaneSurface surface;
-    const LaneTable* tables = nullptr;  ///< of a table: the first of tables_of()
-    LaneFaceOptics constant;            ///< what does not depend on the wavelength; the rest is 0
+    const LaneTable* tables = nullptr;       ///< of a table: the first of tables_of()
+    LaneFaceOptics constant{};               ///< what does not depend on the wavelength; the rest is 0
+    const core::Curve* gap_index = nullptr;  ///< of the gap behind the surface; null: there is none
+    bool plain = false;                      ///< scene::Interface::plain
+    Total total = Total::none;
   };
 
   static void add_planes(const scene::Boundary& boundary, Shape& shape);
@@ -109,6 +115,8 @@ class LaneScene {
   std::size_t place_of(std::size_t alike) const { return no_surface() + (alike + 1) * kRecords; }
   /// Place of the faces alike.
   std::size_t alike(const scene::BoundaryLink& link, core::MediumId here, const optics::LaneSurface& surface);
+  /// AtWavelength::records, whose numbers that depend on the wavelength are not set.
+  std::vector<LaneRecord> initial_records() const;
   /// Sets what is behind the faces of a region.
   void link_faces(core::RegionId id, const LaneKinds& kinds);
   /// Of a table, from each of its wavelengths to the next.
@@ -124,6 +132,7 @@ class LaneScene {
   bool has_gaps_ = false, has_neighbours_ = false;
   std::vector<AlikeFaces> alike_;
   std::vector<core::MediumId> media_;
+  std::vector<LaneRecord> initial_;  ///< initial_records()
   std::map<const optics::SurfaceTable*, std::vector<LaneTable>> tables_;
 };
 

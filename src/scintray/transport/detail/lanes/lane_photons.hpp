@@ -192,10 +192,9 @@ class LanePhotons {
   }
   /// Four numbers of a record of each lane.
   static LaneFours<Real> row_of(const double* const (&of)[kWidth], int which) {
-    const double* at[kWidth];
-    for (std::size_t lane = 0; lane < kWidth; ++lane) at[lane] = of[lane] + 4 * which;
     LaneFours<Real> fours;
-    load_fours(at, fours);
+    load_fours(core::LanePlaces<const double>{of, static_cast<std::size_t>(which) * 4 * sizeof(double)},
+               fours);
     return fours;
   }
   static const LaneFace& face_of(const Now& now, std::size_t lane) {
@@ -214,18 +213,12 @@ class LanePhotons {
   /// Four numbers of each photon.
   /// @param offset  of the first one in LanePhoton
   Row row(std::size_t offset) const {
-    const double* at[kWidth];
-    for (std::size_t lane = 0; lane < kWidth; ++lane)
-      at[lane] = reinterpret_cast<const double*>(reinterpret_cast<const char*>(photon_[lane]) + offset);
     Row numbers;
-    load_fours(at, numbers);
+    load_fours(core::LanePlaces<LanePhoton>{photon_, offset}, numbers);
     return numbers;
   }
   void put_row(std::size_t offset, const Row& numbers) const {
-    double* at[kWidth];
-    for (std::size_t lane = 0; lane < kWidth; ++lane)
-      at[lane] = reinterpret_cast<double*>(reinterpret_cast<char*>(photon_[lane]) + offset);
-    store_fours(numbers, at);
+    store_fours(numbers, core::LanePlaces<LanePhoton>{photon_, offset});
   }
   /// A bit for each photon of the pool that is in these lanes. Without a loop over them, whose length would
   /// be predicted wrongly.

@@ -239,12 +239,15 @@ class LaneSurfaces : protected LanePhotons<Real, kDraws, kOneWavelength> {
     const Mask absorbed = random.uniform(0) >= sheet.of[1];
     const Mask mixed = share > zero, specular = mixed & (random.uniform(1) < share);
     const Vector against = -now.normal;
-    const Vector diffuse =
-        core::lambertian<Real>(against, core::uniform_of<Real>(choose(mixed, random.bits[2], random.bits[1])),
-                               core::uniform_of<Real>(choose(mixed, random.bits[3], random.bits[2])));
     const Light mirrored = optics::reflected(now.light, against);
     const Mask unpolarised = is_zero(now.light.polarisation), kept = here & !absorbed;
-    now.light = select(kept, select(specular, mirrored, Light{diffuse, now.light.polarisation}), now.light);
+    if (const Mask scattered = kept & !specular; any(scattered)) {
+      const Vector diffuse = core::lambertian<Real>(
+          against, core::uniform_of<Real>(choose(mixed, random.bits[2], random.bits[1])),
+          core::uniform_of<Real>(choose(mixed, random.bits[3], random.bits[2])));
+      now.light.direction = select(scattered, diffuse, now.light.direction);
+    }
+    now.light = select(kept & specular, mirrored, now.light);
     const Real back =
         select(now.kind == Real(lane_state::kReflector), Real(lane_state::kReflected), now.kind);
     store(next_, select(here, back, load(next_)));
