@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "scintray/core/error.hpp"
 
@@ -94,48 +95,50 @@ PulseShape::State PulseShape::impulse() const {
   return state;
 }
 
+template <class Act>
+void PulseShape::for_stages(const Act& act) const {
+  switch (rate_per_ns_.size()) {
+    case 2:
+      return act(std::integral_constant<std::size_t, 2>());
+    case 3:
+      return act(std::integral_constant<std::size_t, 3>());
+    case 4:
+      return act(std::integral_constant<std::size_t, 4>());
+    default:
+      return act(rate_per_ns_.size());
+  }
+}
+
 /// Multiplies the state with exp(A t), whose generator is bidiagonal: d state_i / dt = rate_i (state_(i-1)
 /// - state_i). With the fastest rate r and P = 1 + A / r, which has no negative entry, the exponential is
 /// the sum over m of exp(-r t) (r t)^m / m! P^m.
 void PulseShape::pass(State& state, double time_ns) const {
-  const std::size_t stages = rate_per_ns_.size();
-  for (double left = fastest_per_ns_ * time_ns; left > 0.0;) {
-    const double piece = std::min(left, kLongestPiece);
-    left -= piece;
-    State term = state, sum{};
-    double weight = std::exp(-piece);
-    for (double m = 1.0; weight > 1e-20 || m < piece; m += 1.0) {
-      for (std::size_t i = 0; i < stages; ++i) sum[i] += weight * term[i];
-      for (std::size_t i = stages; i-- > 0;) {
-        term[i] += share_of_fastest_[i] * ((i > 0 ? term[i - 1] : 0.0) - term[i]);
+  for_stages([&](auto stages) {
+    for (double left = fastest_per_ns_ * time_ns; left > 0.0;) {
+      const double piece = std::min(left, kLongestPiece);
+      left -= piece;
+      State term = state, sum{};
+      double weight = std::exp(-piece);
+      for (double m = 1.0; weight > 1e-20 || m < piece; m += 1.0) {
+        for (std::size_t i = 0; i < stages; ++i) sum[i] += weight * term[i];
+        for (std::size_t i = stages; i-- > 0;)
+          term[i] += share_of_fastest_[i] * ((i > 0 ? term[i - 1] : 0.0) - term[i]);
+        weight *= piece / m;
       }
-      weight *= piece / m;
+      state = sum;
     }
-    state = sum;
-  }
+  });
 }
 
 void PulseShape::step(State& state) const {
-  // The usual numbers of stages by loops of known length: a waveform is mostly such steps.
-  switch (rate_per_ns_.size()) {
-    case 2:
-      return step_of(2, state);
-    case 3:
-      return step_of(3, state);
-    case 4:
-      return step_of(4, state);
-    default:
-      return step_of(rate_per_ns_.size(), state);
-  }
-}
-
-[[gnu::always_inline]] inline void PulseShape::step_of(std::size_t stages, State& state) const {
-  // The last stage first: each depends on those before it alone.
-  for (std::size_t to = stages; to-- > 0;) {
-    double passed = 0.0;
-    for (std::size_t from = 0; from <= to; ++from) passed += state[from] * per_step_[from][to];
-    state[to] = passed;
-  }
+  for_stages([&](auto stages) {
+    // The last stage first: each depends on those before it alone.
+    for (std::size_t to = stages; to-- > 0;) {
+      double passed = 0.0;
+      for (std::size_t from = 0; from <= to; ++from) passed += state[from] * per_step_[from][to];
+      state[to] = passed;
+    }
+  });
 }
 
 PulseShape::State PulseShape::after(double time_ns) const {

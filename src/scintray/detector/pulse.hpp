@@ -66,7 +66,9 @@ class PulseShape {
   State impulse() const;
   void pass(State& state, double time_ns) const;
   void step(State& state) const;  ///< by one period
-  void step_of(std::size_t stages, State& state) const;
+  /// Calls act(number of stages), which for the usual numbers is a constant: loops of known length.
+  template <class Act>
+  void for_stages(const Act& act) const;
   State after(double time_ns) const;
   double held(const State& state) const;
 

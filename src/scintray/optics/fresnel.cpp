@@ -31,16 +31,16 @@ bool interact_at_facet(Ray& ray, const core::Vec3& m, double n1, double n2, core
   }
   FacetLight<double> facet(light, normal, cos_i, refraction, n1, n2);
   if (is_zero(light.polarisation)) {
-    const bool transmitted = rng.uniform() >= facet.unpolarised_reflectance();
+    const bool transmitted = facet.transmits_unpolarised(rng.uniform());
     ray.direction = vec(transmitted ? facet.refracted() : facet.mirrored());
     return transmitted;
   }
   if (refraction.sin2_i < kNormalIncidence) {
-    const bool transmitted = rng.uniform() >= facet.reflectance_s();
+    const bool transmitted = facet.transmits_straight(rng.uniform());
     if (!transmitted) set_light(ray, reflected(light, normal));
     return transmitted;
   }
-  const bool transmitted = rng.uniform() >= facet.polarised_reflectance();
+  const bool transmitted = facet.transmits_polarised(rng.uniform());
   const core::Triple<double> direction = transmitted ? facet.refracted() : facet.mirrored();
   set_light(ray, {direction, facet.polarised(transmitted, direction)});
   return transmitted;

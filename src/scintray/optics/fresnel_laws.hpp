@@ -24,24 +24,38 @@ struct RefractionOf {
   Real cos_t() const { return root(Real(1.0) - sin2_t); }
 };
 
+/// Amplitudes of the electric field, below the critical angle, all times one positive factor: without a
+/// division.
+template <typename Real>
+struct FresnelFieldsOf {
+  Real incident;
+  Real s;  ///< reflected, across the plane of incidence
+  Real p;  ///< reflected, in the plane of incidence
+
+  /// @param cos_i  cosine of the angle of incidence, in index n1; @param cos_t of the angle of refraction, in
+  ///               index n2
+  FresnelFieldsOf(Real cos_i, Real cos_t, Real n1, Real n2) {
+    // s = (i1 - t2) / (i1 + t2), p = (i2 - t1) / (i2 + t1), times both denominators.
+    const Real i1 = n1 * cos_i, t1 = n1 * cos_t, i2 = n2 * cos_i, t2 = n2 * cos_t;
+    const Real of_s = i1 + t2, of_p = i2 + t1;
+    incident = of_s * of_p;
+    s = (i1 - t2) * of_p;
+    p = (i2 - t1) * of_s;
+  }
+};
+
 /// Amplitudes of the reflected electric field relative to the incident field, below the critical angle.
 template <typename Real>
 struct FresnelAmplitudesOf {
   Real s;  ///< electric field across the plane of incidence
   Real p;  ///< electric field in the plane of incidence
 
-  /// @param cos_i  cosine of the angle of incidence, in index n1; @param cos_t of the angle of refraction, in
-  ///               index n2
-  FresnelAmplitudesOf(Real cos_i, Real cos_t, Real n1, Real n2)
-      : FresnelAmplitudesOf(n1 * cos_i, n1 * cos_t, n2 * cos_i, n2 * cos_t, {}) {}
-
- private:
-  struct Products {};
-  /// s = (i1 - t2) / (i1 + t2), p = (i2 - t1) / (i2 + t1), with one division.
-  FresnelAmplitudesOf(Real i1, Real t1, Real i2, Real t2, Products) {
-    const Real of_s = i1 + t2, of_p = i2 + t1, inverse = Real(1.0) / (of_s * of_p);
-    s = (i1 - t2) * (of_p * inverse);
-    p = (i2 - t1) * (of_s * inverse);
+  /// As of FresnelFieldsOf.
+  FresnelAmplitudesOf(Real cos_i, Real cos_t, Real n1, Real n2) {
+    const FresnelFieldsOf<Real> fields(cos_i, cos_t, n1, n2);
+    const Real inverse = Real(1.0) / fields.incident;
+    s = fields.s * inverse;
+    p = fields.p * inverse;
   }
 };
 
@@ -75,11 +89,13 @@ Real cos_incidence(const LightRay<Real>& light, const core::Triple<Real>& m) {
   return core::least(core::greatest(cosine, Real(0.0)), Real(1.0));
 }
 
-/// Light at a smooth facet, below the critical angle: its reflectance for its polarisation, and the light
-/// that leaves it.
+/// Light at a smooth facet, below the critical angle: whether it is transmitted, and the light that leaves
+/// it. Uniform random numbers are compared with reflectances as products, and a common factor of fields
+/// cancels where they are normalised, so that neither takes a division.
 template <typename Real>
 class FacetLight {
   using Vector = core::Triple<Real>;
+  using Mask = core::MaskOf<Real>;
 
  public:
   /// @param m   unit normal opposed to the light; @param cos_i cosine of incidence
@@ -91,17 +107,25 @@ class FacetLight {
         cos_i_(cos_i),
         cos_t_(at.cos_t()),
         ratio_(at.ratio),
-        r_(cos_i, cos_t_, n1, n2) {}
+        fields_(cos_i, cos_t_, n1, n2) {}
 
-  Real reflectance_s() const { return r_.s * r_.s; }
-  Real unpolarised_reflectance() const { return Real(0.5) * (r_.s * r_.s + r_.p * r_.p); }
-  /// Of light with a polarisation and a plane of incidence; has to be called before polarised().
-  Real polarised_reflectance() {
+  /// Whether light is transmitted rather than reflected, by a uniform random number in [0, 1): light at
+  /// normal incidence, unpolarised light, and light with a polarisation and a plane of incidence, for which
+  /// it has to be called before polarised().
+  Mask transmits_straight(const Real& uniform) const {
+    return uniform * (fields_.incident * fields_.incident) >= fields_.s * fields_.s;
+  }
+  Mask transmits_unpolarised(const Real& uniform) const {
+    return uniform * (Real(2.0) * fields_.incident * fields_.incident) >=
+           fields_.s * fields_.s + fields_.p * fields_.p;
+  }
+  Mask transmits_polarised(const Real& uniform) {
     // Of the length of the sine of incidence, which cancels here and in polarised().
     across_ = cross(light_.direction, m_);
     e_s_ = dot(light_.polarisation, across_);
     e_p_ = dot(light_.polarisation, cross(across_, light_.direction));
-    return (r_.s * r_.s * e_s_ * e_s_ + r_.p * r_.p * e_p_ * e_p_) / (e_s_ * e_s_ + e_p_ * e_p_);
+    const Real s = fields_.s * e_s_, p = fields_.p * e_p_;
+    return uniform * (fields_.incident * fields_.incident * (e_s_ * e_s_ + e_p_ * e_p_)) >= s * s + p * p;
   }
 
   Vector refracted() const {
@@ -109,12 +133,11 @@ class FacetLight {
   }
   Vector mirrored() const { return core::mirrored(light_.direction, m_); }
   /// Polarisation after transmission or reflection into a direction.
-  Vector polarised(const core::MaskOf<Real>& transmitted, const Vector& into) const {
+  Vector polarised(const Mask& transmitted, const Vector& into) const {
     // t_p = (n1/n2)(1 + r_p), same convention. p is s x k on every side, so r_p's sign convention (Born &
     // Wolf fig. 1.10) carries over.
-    const Real one(1.0);
-    const Real out_s = select(transmitted, one + r_.s, r_.s) * e_s_;
-    const Real out_p = select(transmitted, ratio_ * (one + r_.p), r_.p) * e_p_;
+    const Real out_s = select(transmitted, fields_.incident + fields_.s, fields_.s) * e_s_;
+    const Real out_p = select(transmitted, ratio_ * (fields_.incident + fields_.p), fields_.p) * e_p_;
     return normalised(out_s * across_ + out_p * cross(across_, into));
   }
 
@@ -122,7 +145,7 @@ class FacetLight {
   const LightRay<Real>& light_;
   const Vector& m_;
   Real cos_i_, cos_t_, ratio_;
-  FresnelAmplitudesOf<Real> r_;
+  FresnelFieldsOf<Real> fields_;
   Vector across_{Real(0.0), Real(0.0), Real(0.0)};
   Real e_s_{0.0}, e_p_{0.0};
 };

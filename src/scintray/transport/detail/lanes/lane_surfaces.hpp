@@ -91,10 +91,11 @@ class LaneSurfaces : protected LanePhotons<Real, kDraws, kOneWavelength> {
     const Mask total = refraction.total(), unpolarised = is_zero(light.polarisation);
     optics::FacetLight<Real> facet(light, m, cos_i, refraction, n1, n2);
     const Mask straight = (!unpolarised) & (refraction.sin2_i < Real(optics::kNormalIncidence));
-    const Real polarised = facet.polarised_reflectance();
-    const Real reflectance = select(unpolarised, facet.unpolarised_reflectance(),
-                                    select(straight, facet.reflectance_s(), polarised));
-    const Mask transmitted = (!total) & (core::uniform_of<Real>(random) >= reflectance);
+    const Real uniform = core::uniform_of<Real>(random);
+    const Mask polarised = facet.transmits_polarised(uniform);
+    const Mask transmitted =
+        (!total) & ((unpolarised & facet.transmits_unpolarised(uniform)) |
+                    (straight & facet.transmits_straight(uniform)) | (!(unpolarised | straight) & polarised));
     const Light mirrored = optics::reflected(light, m);
     const Vector direction =
         select(transmitted, select(straight, light.direction, facet.refracted()), mirrored.direction);
