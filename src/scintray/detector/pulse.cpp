@@ -104,6 +104,10 @@ void PulseShape::for_stages(const Act& act) const {
       return act(std::integral_constant<std::size_t, 3>());
     case 4:
       return act(std::integral_constant<std::size_t, 4>());
+    case 5:
+      return act(std::integral_constant<std::size_t, 5>());
+    case 6:
+      return act(std::integral_constant<std::size_t, 6>());
     default:
       return act(rate_per_ns_.size());
   }
