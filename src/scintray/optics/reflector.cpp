@@ -10,8 +10,10 @@ namespace scintray::optics {
 
 namespace {
 
+/// A number is drawn only where both kinds occur.
 bool is_specular(const Reflector& reflector, core::Rng& rng) {
-  return reflector.specular_share > 0.0 && rng.uniform() < reflector.specular_share;
+  const double share = reflector.specular_share;
+  return share >= 1.0 || (share > 0.0 && rng.uniform() < share);
 }
 
 /// Lambertian reflection of PaintPolarisation::geant4.

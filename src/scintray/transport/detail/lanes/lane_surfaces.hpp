@@ -95,7 +95,7 @@ class LaneSurfaces : protected LanePhotons<Real, kDraws, kOneWavelength> {
     const Mask polarised = facet.transmits_polarised(uniform);
     const Mask transmitted =
         (!total) & ((unpolarised & facet.transmits_unpolarised(uniform)) |
-                    (straight & facet.transmits_straight(uniform)) | (!(unpolarised | straight) & polarised));
+                    (straight & facet.transmits_straight(uniform)) | (polarised & !(unpolarised | straight)));
     const Light mirrored = optics::reflected(light, m);
     const Vector direction =
         select(transmitted, select(straight, light.direction, facet.refracted()), mirrored.direction);
@@ -238,7 +238,8 @@ class LaneSurfaces : protected LanePhotons<Real, kDraws, kOneWavelength> {
     const LaneFours<Real> sheet = optics_of(now, 2);
     const Real zero(0.0), one(1.0), share = sheet.of[2];
     const Mask absorbed = random.uniform(0) >= sheet.of[1];
-    const Mask mixed = share > zero, specular = mixed & (random.uniform(1) < share);
+    const Mask mixed = (share > zero) & (share < one);
+    const Mask specular = (share >= one) | (mixed & (random.uniform(1) < share));
     const Vector against = -now.normal;
     const Light mirrored = optics::reflected(now.light, against);
     const Mask unpolarised = is_zero(now.light.polarisation), kept = here & !absorbed;
