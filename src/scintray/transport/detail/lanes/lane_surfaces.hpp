@@ -92,10 +92,11 @@ class LaneSurfaces : protected LanePhotons<Real, kDraws, kOneWavelength> {
     optics::FacetLight<Real> facet(light, m, cos_i, refraction, n1, n2);
     const Mask straight = (!unpolarised) & (refraction.sin2_i < Real(optics::kNormalIncidence));
     const Real uniform = core::uniform_of<Real>(random);
-    const Mask polarised = facet.transmits_polarised(uniform);
-    const Mask transmitted =
-        (!total) & ((unpolarised & facet.transmits_unpolarised(uniform)) |
-                    (straight & facet.transmits_straight(uniform)) | (polarised & !(unpolarised | straight)));
+    Mask transmitted = facet.transmits_polarised(uniform);
+    if (const Mask others = unpolarised | straight; any(others))
+      transmitted = (transmitted & !others) | (unpolarised & facet.transmits_unpolarised(uniform)) |
+                    (straight & facet.transmits_straight(uniform));
+    transmitted = transmitted & !total;
     const Light mirrored = optics::reflected(light, m);
     const Vector direction =
         select(transmitted, select(straight, light.direction, facet.refracted()), mirrored.direction);
