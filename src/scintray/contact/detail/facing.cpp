@@ -1,9 +1,9 @@
 #include "scintray/contact/detail/facing.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
+#include "scintray/core/linear_solutions.hpp"
 #include "scintray/mesh/triangle_distance.hpp"
 
 namespace scintray::contact {
@@ -78,7 +78,7 @@ mesh::TriMesh pushed(mesh::TriMesh mesh, const Body& body, const std::vector<cha
   for (std::uint32_t v = 0; v < around.size(); ++v) {
     if (std::none_of(around[v].begin(), around[v].end(), [&](std::uint32_t t) { return marked[t]; }))
       continue;
-    Eigen::MatrixX3d planes(around[v].size(), 3);
+    Eigen::MatrixXd planes(around[v].size(), 3);
     Eigen::VectorXd shifts(around[v].size());
     double largest = 0.0;
     for (const std::uint32_t t : around[v]) largest = std::max(largest, area[t]);
@@ -88,10 +88,7 @@ mesh::TriMesh pushed(mesh::TriMesh mesh, const Body& body, const std::vector<cha
       planes.row(static_cast<Eigen::Index>(k)) = weight * body.normal[t];
       shifts(static_cast<Eigen::Index>(k)) = marked[t] ? weight * by : 0.0;
     }
-    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixX3d> solver;
-    solver.setThreshold(kRankThreshold);
-    solver.compute(planes);
-    mesh.vertices[v] += solver.solve(shifts);
+    mesh.vertices[v] += core::least_solution(planes, shifts, kRankThreshold).x;
   }
   return mesh;
 }

@@ -1,4 +1,3 @@
-#include <Eigen/QR>
 #include <algorithm>
 #include <map>
 #include <numeric>
@@ -6,6 +5,7 @@
 
 #include "scintray/contact/box_tree.hpp"
 #include "scintray/contact/detail/clusters.hpp"
+#include "scintray/core/linear_solutions.hpp"
 
 namespace scintray::contact {
 
@@ -69,16 +69,13 @@ class Snapper {
       for (const Plane& plane : planes) worst = std::max(worst, std::abs(plane.height(from)));
       at_[i] = from;
       if (worst <= rounding_) continue;
-      Eigen::MatrixX3d a(planes.size(), 3);
+      Eigen::MatrixXd a(planes.size(), 3);
       Eigen::VectorXd b(planes.size());
       for (std::size_t k = 0; k < planes.size(); ++k) {
         a.row(static_cast<Eigen::Index>(k)) = planes[k].normal;
         b(static_cast<Eigen::Index>(k)) = -planes[k].height(from);
       }
-      Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixX3d> solver;
-      solver.setThreshold(kRankThreshold);
-      solver.compute(a);
-      at_[i] = from + solver.solve(b);
+      at_[i] = from + core::least_solution(a, b, kRankThreshold).x;
     }
   }
 

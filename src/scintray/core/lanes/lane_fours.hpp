@@ -2,6 +2,8 @@
 /// Loads and stores of four numbers that follow each other in memory, and loads of single ones, at a place of
 /// its own for each lane.
 
+#include <type_traits>
+
 #include "scintray/core/lanes/lane_number.hpp"
 
 namespace scintray::core {
@@ -13,16 +15,19 @@ struct LaneFours {
 };
 
 /// Places at the same distance from the records of all lanes. As part of the address of a load, the distance
-/// takes no instruction; pointers computed beforehand are added up in vectors and taken apart again.
+/// takes no instruction; pointers computed beforehand are added up in vectors and taken apart again. Always
+/// inlined: its functions have one name for all instruction sets.
 template <typename Record>
 struct LanePlaces {
   Record* const* records;  ///< one of each lane
   std::size_t bytes;
 
-  const double* operator[](std::size_t lane) const {
-    return reinterpret_cast<const double*>(reinterpret_cast<const char*>(records[lane]) + bytes);
+  using Number = std::conditional_t<std::is_const_v<Record>, const double, double>;
+  [[gnu::always_inline]] Number* operator[](std::size_t lane) const {
+    using Byte = std::conditional_t<std::is_const_v<Record>, const char, char>;
+    return reinterpret_cast<Number*>(reinterpret_cast<Byte*>(records[lane]) + bytes);
   }
-  LanePlaces operator+(std::size_t lanes) const { return {records + lanes, bytes}; }
+  [[gnu::always_inline]] LanePlaces operator+(std::size_t lanes) const { return {records + lanes, bytes}; }
 };
 
 /// Stores four 64-bit numbers of each lane at two places of its own.
@@ -131,8 +136,7 @@ void store_fours(const LaneFours<Real>& fours, const LanePlaces<Record>& to) {
   const typename Real::Bits words[] = {bits_of(fours.of[0]), bits_of(fours.of[1]), bits_of(fours.of[2]),
                                        bits_of(fours.of[3])};
   store_by_lane(words, [&](int lane, __m256i four) {
-    _mm256_storeu_si256(reinterpret_cast<__m256i*>(const_cast<double*>(to[static_cast<std::size_t>(lane)])),
-                        four);
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(to[static_cast<std::size_t>(lane)]), four);
   });
 }
 #endif

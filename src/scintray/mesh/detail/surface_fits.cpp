@@ -1,8 +1,9 @@
 #include "scintray/mesh/detail/surface_fits.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+
+#include "scintray/core/linear_solutions.hpp"
 
 namespace scintray::mesh {
 
@@ -31,7 +32,7 @@ core::Vec3 axis_of_wall(const FacetPatch& patch, bool cone) {
     const core::Vec3 d = patch.normals[t] - mean;
     covariance += patch.areas[t] * d * d.transpose();
   }
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvectors().col(0);
+  return core::principal_axes(covariance).directions.col(0);
 }
 
 std::optional<SupportSurface> surface_of_wall(const FittedWall& wall, const std::vector<core::Vec3>& points,
@@ -75,7 +76,7 @@ std::optional<FittedWall> first_wall(const std::vector<core::Vec3>& points, cons
     right[i] = px * px + py * py;
   }
   // Of two rings z and z^2 are not independent: the least solution does as a start.
-  const Eigen::VectorXd s = left.completeOrthogonalDecomposition().solve(right);
+  const Eigen::VectorXd s = core::least_solution(left, right).x;
   const double radius2 = s[2] + s[0] * s[0] + s[1] * s[1];
   if (!(radius2 > 0.0) || !std::isfinite(radius2)) return std::nullopt;
   const double radius = std::sqrt(radius2);
@@ -108,7 +109,7 @@ std::optional<FittedWall> improved_wall(const std::vector<core::Vec3>& points, c
     products += slope * slope.transpose();
     sums -= off * slope;
   }
-  const Eigen::Matrix<double, 6, 1> change = products.completeOrthogonalDecomposition().solve(sums);
+  const Eigen::Matrix<double, 6, 1> change = core::least_solution(products, sums).x;
   if (!change.allFinite()) return std::nullopt;
   FittedWall next = wall;
   next.origin += change[0] * x + change[1] * y;
@@ -149,7 +150,7 @@ bool is_surface_of(const SupportSurface& surface, const std::vector<core::Vec3>&
   const core::Vec3 mean = middle_of(points);
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   for (const core::Vec3& p : points) covariance += (p - mean) * (p - mean).transpose();
-  const core::Vec3 thin = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvectors().col(0);
+  const core::Vec3 thin = core::principal_axes(covariance).directions.col(0);
   double low = 0.0, high = 0.0;
   for (const core::Vec3& p : points) {
     low = std::min(low, thin.dot(p - mean));
@@ -167,11 +168,10 @@ std::optional<SupportSurface> fit_sphere(const FacetPatch& patch, double toleran
     left.row(i) << 2.0 * p.transpose(), 1.0;
     right[i] = p.squaredNorm();
   }
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> solver(left);
-  if (solver.rank() < 4) return std::nullopt;
-  const Eigen::VectorXd solution = solver.solve(right);
-  const core::Vec3 centre = solution.head<3>();
-  const double radius2 = solution[3] + centre.squaredNorm();
+  const auto [solution, rank] = core::least_solution(left, right);
+  if (rank < 4) return std::nullopt;
+  const core::Vec3 centre = solution.col(0).head<3>();
+  const double radius2 = solution(3) + centre.squaredNorm();
   if (!(radius2 > 0.0)) return std::nullopt;
   const SupportSurface result = SupportSurface::sphere(mean + centre, std::sqrt(radius2));
   return is_surface_of(result, patch.corners, tolerance_mm, tolerance_mm) ? std::optional(result)

@@ -1,8 +1,8 @@
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "scintray/core/linear_solutions.hpp"
 #include "scintray/mesh/detail/surface_fits.hpp"
 
 namespace scintray::mesh {
@@ -77,14 +77,14 @@ std::vector<AxisLine> axes_of_revolution(const FacetPatch& patch, const core::Ve
   }
   if (!directions.allFinite() || !mixed.allFinite() || !moments.allFinite()) return {};
   // With |a| = 1 the best m is linear in a.
-  const Eigen::Matrix3d best = -moments.completeOrthogonalDecomposition().solve(mixed.transpose());
+  const Eigen::Matrix3d best = -core::least_solution(moments, mixed.transpose()).x;
   Eigen::Matrix3d reduced = directions + mixed * best;
   reduced = 0.5 * (reduced + reduced.transpose().eval());
   if (!reduced.allFinite()) return {};
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(reduced);
+  const Eigen::Matrix3d axes = core::principal_axes(reduced).directions;
   std::vector<AxisLine> lines;
   for (Eigen::Index i = 0; i < 3; ++i) {
-    const core::Vec3 axis = solver.eigenvectors().col(i), moment = best * axis;
+    const core::Vec3 axis = axes.col(i), moment = best * axis;
     lines.push_back({mean + size * axis.cross(moment), axis});
   }
   return lines;
@@ -102,7 +102,7 @@ std::optional<FittedTorus> first_torus(const std::vector<core::Vec3>& points, co
     products += row * row.transpose();
     sums += (rho * rho + z * z) * row;
   }
-  const core::Vec3 s = products.completeOrthogonalDecomposition().solve(sums);
+  const core::Vec3 s = core::least_solution(products, sums).x;
   const double minor2 = s[2] + s[0] * s[0] + s[1] * s[1];
   if (!s.allFinite() || !(s[0] > 0.0) || !(minor2 > 0.0)) return std::nullopt;
   return FittedTorus{line.through + size * s[1] * line.direction, line.direction, size * s[0],
@@ -153,7 +153,7 @@ std::optional<FittedTorus> improved_torus(const std::vector<core::Vec3>& points,
     for (int attempt = 0; attempt < 8 && !better; ++attempt) {
       Matrix7 damped = slopes.products;
       damped.diagonal() *= 1.0 + damping;
-      const Vector7 change = damped.completeOrthogonalDecomposition().solve(slopes.sums);
+      const Vector7 change = core::least_solution(damped, slopes.sums).x;
       const core::Vec3 x = torus.axis.unitOrthogonal(), y = torus.axis.cross(x);
       FittedTorus next = torus;
       next.centre += change[0] * x + change[1] * y + change[2] * torus.axis;

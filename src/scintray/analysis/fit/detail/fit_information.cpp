@@ -1,8 +1,10 @@
 #include "scintray/analysis/fit/detail/fit_information.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+
+#include "scintray/core/linear_solutions.hpp"
 
 namespace scintray::analysis {
 
@@ -51,9 +53,9 @@ struct PrincipalInformation {
     const Eigen::MatrixXd all_noise = slopes.summed_noise();
     unit = raw.diagonal().cwiseMax(least).cwiseSqrt().cwiseInverse();
     const Eigen::MatrixXd scaled = unit.asDiagonal() * raw * unit.asDiagonal();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
-    values = eigen.eigenvalues();
-    directions = eigen.eigenvectors();
+    core::PrincipalAxes axes = core::principal_axes(scaled);
+    values = std::move(axes.values);
+    directions = std::move(axes.directions);
     noise.resize(values.size());
     for (Index k = 0; k < values.size(); ++k) {
       const Eigen::VectorXd direction = unit.cwiseProduct(directions.col(k));
