@@ -28,6 +28,23 @@ TEST_CASE("A curve interpolates linearly and keeps its end values outside") {
   CHECK(curve.max_y() == 2.0);
 }
 
+TEST_CASE("A curve of any number of points interpolates between the two about each abscissa") {
+  Rng rng(1, StreamKind::other, 0);
+  for (std::size_t points = 2; points <= 33; ++points) {
+    std::vector<double> x{0.0}, y{rng.uniform()};
+    while (x.size() < points) x.push_back(x.back() + 0.1 + rng.uniform()), y.push_back(rng.uniform());
+    const Curve curve(x, y);
+    for (std::size_t i = 1; i < points; ++i)
+      for (const double at : {x[i - 1], std::nextafter(x[i - 1], x[i]), 0.3 * x[i - 1] + 0.7 * x[i],
+                              std::nextafter(x[i], x[i - 1])}) {
+        CAPTURE(points);
+        CAPTURE(i);
+        const double share = (at - x[i - 1]) / (x[i] - x[i - 1]);
+        CHECK(curve(at) == (at == x.front() ? y.front() : y[i - 1] + share * (y[i] - y[i - 1])));
+      }
+  }
+}
+
 TEST_CASE("A curve knows its range; a constant covers everything") {
   const Curve curve({400, 700}, {1.0, 2.0});
   CHECK(curve.covers(400, 700));

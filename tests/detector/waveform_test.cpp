@@ -83,6 +83,24 @@ TEST_CASE("the charge is the sum over the gate over the pulse's area") {
   CHECK(measure(waveform, readout, pulse.area_ns()).charge == doctest::Approx(0.0));
 }
 
+TEST_CASE("a gate begins and ends with the first sample that is not before its times") {
+  constexpr std::size_t kSamples = 40;
+  ReadoutSpec readout = nanosecond_samples();
+  for (const double period_ns : {1.0, 0.3, 0.7}) {
+    readout.period_ns = period_ns;
+    for (const double close_ns :
+         {-20.0, -10.0, 0.0, 0.1 + 0.2, 0.9, 2.1, 7.0, std::nextafter(7.0, 8.0), 300.0}) {
+      CAPTURE(period_ns);
+      CAPTURE(close_ns);
+      readout.gate_ns = {-20.0, close_ns};
+      std::size_t past = 0;
+      while (past < kSamples && static_cast<double>(past) * period_ns - kBefore_ns < close_ns) ++past;
+      CHECK(gate_of(readout, kSamples).first == 0);
+      CHECK(gate_of(readout, kSamples).past == past);
+    }
+  }
+}
+
 TEST_CASE("the amplitude is the largest sample") {
   const ReadoutSpec readout = nanosecond_samples();
   const PulseShape pulse({9.0, 3.0}, readout.period_ns);

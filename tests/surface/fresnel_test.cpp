@@ -73,6 +73,31 @@ TEST_CASE("Reflectance of s, p, mixed and unpolarised light is Fresnel's") {
   }
 }
 
+TEST_CASE("Light is transmitted from the random number on that is its reflectance") {
+  const core::Triple<double> normal = triple(kNormal);
+  for (const auto& [n1, n2] : {std::pair{1.82, 1.0}, std::pair{1.0, 1.82}, std::pair{1.82, 1.5}})
+    for (const double degrees : {0.001, 5.0, 20.0, 33.0})
+      for (const double polarisation : {0.0, 0.5 * kPi, 0.7}) {
+        CAPTURE(n1);
+        CAPTURE(degrees);
+        CAPTURE(polarisation);
+        const double cos_i = std::cos(degrees * kDegree);
+        const FresnelCoefficients expected = fresnel(cos_i, n1, n2);
+        const Ray ray = incident(degrees * kDegree, polarisation);
+        const LightRay<double> light{triple(ray.direction), triple(ray.polarisation)};
+        FacetLight<double> facet(light, normal, cos_i, Refraction(cos_i, n1, n2), n1, n2);
+        const double mixed = expected.reflectance_s * std::pow(std::cos(polarisation), 2) +
+                             expected.reflectance_p * std::pow(std::sin(polarisation), 2);
+        constexpr double kBelow = 1.0 - 1e-10, kAbove = 1.0 + 1e-10;
+        CHECK_FALSE(facet.transmits_polarised(kBelow * mixed));
+        CHECK(facet.transmits_polarised(kAbove * mixed));
+        CHECK_FALSE(facet.transmits_unpolarised(kBelow * expected.unpolarised()));
+        CHECK(facet.transmits_unpolarised(kAbove * expected.unpolarised()));
+        CHECK_FALSE(facet.transmits_straight(kBelow * expected.reflectance_s));
+        CHECK(facet.transmits_straight(kAbove * expected.reflectance_s));
+      }
+}
+
 TEST_CASE("Beyond the critical angle everything is reflected as by a mirror") {
   for (const double degrees : {33.34, 45.0, 80.0, 89.999}) {
     Rng rng(3, StreamKind::other, 0);

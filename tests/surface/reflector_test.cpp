@@ -98,6 +98,18 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("A mirror draws no number for the kind of its reflection, a sheet of both kinds does") {
+  for (const auto& [specular, drawn] : {std::pair{1.0, 1}, std::pair{0.999999, 2}}) {
+    Rng rng(5, StreamKind::other, 0);
+    Ray ray = arriving(Side::inside, 0.6, rng);
+    const std::uint64_t before = rng.position();
+    const SurfaceOutcome outcome =
+        painted(sheet(1.0, 0.0, specular)).interact(ray, Side::inside, kSheetNormal, {1.5, 1.5}, 420.0, rng);
+    CHECK(outcome == SurfaceOutcome::inside);
+    CHECK(rng.position() - before == static_cast<std::uint64_t>(drawn));
+  }
+}
+
 TEST_CASE("Beyond the critical angle a film reflects the light that it would transmit") {
   const Surface film = painted(sheet(0.3, 0.5, 1.0));
   const double critical = std::asin(1.0 / 1.82);
