@@ -82,6 +82,20 @@ LightRay<Real> reflected(const LightRay<Real>& light, const core::Triple<Real>& 
   return {core::mirrored(light.direction, m), -core::mirrored(light.polarisation, m)};
 }
 
+/// The same where a condition holds, and the light as it is elsewhere. Of numbers in lanes alone.
+template <typename Real>
+LightRay<Real> reflected_where(const core::MaskOf<Real>& condition, const LightRay<Real>& light,
+                               const core::Triple<Real>& m) {
+  const auto mirrored = [&](const core::Triple<Real>& v) {
+    return v - (Real(2.0) * where(condition, dot(v, m))) * m;
+  };
+  const core::Triple<Real> polarisation = mirrored(light.polarisation);
+  const core::BitsOf<Real> sign = bits_of(where(condition, Real(-0.0)));
+  const auto opposite = [&sign](const Real& x) { return number_of(bits_of(x) ^ sign); };
+  return {mirrored(light.direction),
+          {opposite(polarisation.x), opposite(polarisation.y), opposite(polarisation.z)}};
+}
+
 /// Cosine of incidence of light at a facet with normal m against it.
 template <typename Real>
 Real cos_incidence(const LightRay<Real>& light, const core::Triple<Real>& m) {

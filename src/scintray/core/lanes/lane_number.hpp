@@ -42,6 +42,16 @@ static inline void set_lanes(unsigned bits, __m256d& lanes) {
 static inline void set_lanes(unsigned bits, __mmask8& lanes) { lanes = static_cast<__mmask8>(bits); }
 #endif
 
+// Numbers where a comparison holds, and 0 in other lanes: one instruction, where a selection takes AVX2
+// three.
+static inline __m128d kept_lanes(__m128d lanes, __m128d x) { return _mm_and_pd(lanes, x); }
+#ifdef __AVX2__
+static inline __m256d kept_lanes(__m256d lanes, __m256d x) { return _mm256_and_pd(lanes, x); }
+#endif
+#ifdef __AVX512F__
+static inline __m512d kept_lanes(__mmask8 lanes, __m512d x) { return _mm512_maskz_mov_pd(lanes, x); }
+#endif
+
 /// The results of a comparison in each lane.
 template <typename Arch>
 struct LaneMask {
@@ -142,6 +152,10 @@ struct LaneReal {
   friend Mask operator==(const LaneReal& a, const LaneReal& b) { return {a.lanes == b.lanes}; }
   friend LaneReal select(const Mask& condition, const LaneReal& yes, const LaneReal& no) {
     return xsimd::select(condition.lanes, yes.lanes, no.lanes);
+  }
+  /// x where the condition holds, else 0.
+  friend LaneReal where(const Mask& condition, const LaneReal& x) {
+    return Lanes(kept_lanes(condition.lanes, x.lanes));
   }
   friend Bits bits_of(const LaneReal& x) { return xsimd::bitwise_cast<typename Bits::Lanes>(x.lanes); }
   friend LaneReal root(const LaneReal& x) { return xsimd::sqrt(x.lanes); }
@@ -256,6 +270,9 @@ struct LaneRealPair {
   friend Mask operator==(const LaneRealPair& x, const LaneRealPair& y) { return {x.a == y.a, x.b == y.b}; }
   friend LaneRealPair select(const Mask& condition, const LaneRealPair& yes, const LaneRealPair& no) {
     return {select(condition.a, yes.a, no.a), select(condition.b, yes.b, no.b)};
+  }
+  friend LaneRealPair where(const Mask& condition, const LaneRealPair& x) {
+    return {where(condition.a, x.a), where(condition.b, x.b)};
   }
   friend Bits bits_of(const LaneRealPair& x) { return {bits_of(x.a), bits_of(x.b)}; }
   friend LaneRealPair root(const LaneRealPair& x) { return {root(x.a), root(x.b)}; }

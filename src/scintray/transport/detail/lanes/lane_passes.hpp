@@ -233,11 +233,11 @@ class LanePasses : LaneSurfaces<Real, kDraws, kOneWavelength> {
     const Real cosine = (normal.x * direction.x + normal.z * direction.z) + normal.y * direction.y;
     const Real height = (normal.x * local.x + normal.z * local.z) + (normal.y * local.y - plane.of[3]);
     const Real ahead = -height / cosine, zero(0.0);
-    const Real distance = select(ahead > zero, ahead, zero);
+    const Real distance = where(ahead > zero, ahead);
     const Mask found = here & (cosine > zero) & contains(at_x, at_y) &
                        contains(at_x + distance * dot(x, direction), at_y + distance * dot(y, direction));
     store(plane_, select(found, last.of[2], load(plane_)));
-    move<true>(now, here, found, select(found, distance, zero));
+    move<true>(now, here, found, where(found, distance));
   }
 
   /// Along a segment to a face, and in a region bounded by planes through a total reflection there.
@@ -255,20 +255,21 @@ class LanePasses : LaneSurfaces<Real, kDraws, kOneWavelength> {
     if constexpr (kAcross) unclear = unclear | total;  // the scalar code goes on with Embree
     const Mask moves = here & !(bulk | unclear);
     const Real path = load(path_mm_), time = load(time_ns_);
-    const Real there_time = time + time_along(distance, load(group_index_));
-    store(position_, select(moves, position + distance * direction, position));
-    store(path_mm_, select(moves, path + distance, path));
-    store(time_ns_, select(moves, there_time, time));
-    store(depth_left_, select(moves, depth_left - depth, depth_left));
+    // By no distance where a photon stays.
+    const Real moved = where(moves, distance), there_time = time + time_along(moved, load(group_index_));
+    store(position_, position + moved * direction);
+    store(path_mm_, path + moved);
+    store(time_ns_, there_time);
+    store(depth_left_, depth_left - where(moves, depth));
     store(segments_, load(segments_) + one_if(here & (bulk | !unclear)));
-    const Real interactions = load(interactions_) + select(moves, now.counted, zero);
+    const Real interactions = load(interactions_) + where(moves, now.counted);
     store(interactions_, interactions);
     store(cos_before_, select(here, magnitude(cosine), load(cos_before_)));
     const Real stays = select(bulk, Real(lane_state::kBulk), Real(lane_state::kUnclear));
     if constexpr (kAcross) {
       now.state = select(here, select(moves, now.kind, stays), now.state);
     } else {
-      now.light = select(moves & total, reflected(now.light, now.normal), now.light);
+      now.light = reflected_where(moves & total, now.light, now.normal);
       const Mask within =
           (interactions < Real(pool_.most_interactions)) & (there_time <= Real(pool_.most_time_ns));
       const Real after_total = select(within, Real(lane_state::kPropagate), Real(lane_state::kCut));

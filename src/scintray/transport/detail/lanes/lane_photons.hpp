@@ -41,7 +41,7 @@ class LanePhotons {
   }
   static void store(Counts& to, const Bits& value) { value.store(to); }
 
-  static Real one_if(const Mask& condition) { return select(condition, Real(1.0), Real(0.0)); }
+  static Real one_if(const Mask& condition) { return where(condition, Real(1.0)); }
   static Bits choose(const Mask& condition, const Bits& yes, const Bits& no) {
     return bits_of(select(condition, number_of(yes), number_of(no)));
   }
@@ -224,7 +224,7 @@ class LanePhotons {
   /// be predicted wrongly.
   std::uint64_t places_of(const Mask& lanes) const {
     alignas(64) Counts each;
-    store(each, bits_of(select(lanes, number_of(load(bit_)), Real(0.0))));
+    store(each, bits_of(where(lanes, number_of(load(bit_)))));
     std::uint64_t places = 0;
     for (const std::uint64_t bit : each) places |= bit;
     return places;

@@ -56,7 +56,7 @@ class LaneSurfaces : protected LanePhotons<Real, kDraws, kOneWavelength> {
             {random.uniform_positive(0), random.uniform(1), random.uniform(2), random.uniform(3)});
         const Mask found = pending & facet.accepted;
         m = select(found, facet.normal, m);
-        count_drawn(select(pending, facet.drawn, Real(0.0)));
+        count_drawn(where(pending, facet.drawn));
         pending = pending & !facet.accepted;
       } while (number_of_lanes(pending) > kFewLanes);
     }
@@ -93,16 +93,20 @@ class LaneSurfaces : protected LanePhotons<Real, kDraws, kOneWavelength> {
     const Mask straight = (!unpolarised) & (refraction.sin2_i < Real(optics::kNormalIncidence));
     const Real uniform = core::uniform_of<Real>(random);
     Mask transmitted = facet.transmits_polarised(uniform);
-    if (const Mask others = unpolarised | straight; any(others))
+    const Mask others = unpolarised | straight;
+    if (any(others))
       transmitted = (transmitted & !others) | (unpolarised & facet.transmits_unpolarised(uniform)) |
                     (straight & facet.transmits_straight(uniform));
     transmitted = transmitted & !total;
-    const Light mirrored = optics::reflected(light, m);
-    const Vector direction =
-        select(transmitted, select(straight, light.direction, facet.refracted()), mirrored.direction);
+    Vector direction = select(transmitted, facet.refracted(), facet.mirrored());
     Vector polarisation = facet.polarised(transmitted, direction);
-    polarisation = select(unpolarised | (straight & transmitted), light.polarisation, polarisation);
-    polarisation = select(total | (straight & !transmitted), mirrored.polarisation, polarisation);
+    if (any(others | total)) {
+      const Mask goes_on = straight & transmitted;
+      direction = select(goes_on, light.direction, direction);
+      polarisation = select(unpolarised | goes_on, light.polarisation, polarisation);
+      polarisation =
+          select(total | (straight & !transmitted), optics::reflected(light, m).polarisation, polarisation);
+    }
     return {{direction, polarisation}, transmitted, !total};
   }
 
@@ -228,8 +232,8 @@ class LaneSurfaces : protected LanePhotons<Real, kDraws, kOneWavelength> {
     store(next_, select(leaves, next, load(next_)));
     now.state = select(leaves, select(unpolarised, next, Real(lane_state::kPolarise)), now.state);
     now.state = select(absorbed, Real(lane_state::kAbsorbed), now.state);
-    const Real drawn = select(absorbed, one, Real(3.0)) + select(several, one, zero);
-    count_drawn(select(ready, drawn, zero));
+    const Real drawn = select(absorbed, one, Real(3.0)) + where(several, one);
+    count_drawn(where(ready, drawn));
   }
 
   /// As optics::interact_at_reflector, of an opaque sheet that reflects by Lambert's law and specularly.
@@ -256,8 +260,8 @@ class LaneSurfaces : protected LanePhotons<Real, kDraws, kOneWavelength> {
     store(next_, select(here, back, load(next_)));
     const Real next = select(specular | unpolarised, back, Real(lane_state::kPolarise));
     now.state = select(here, select(absorbed, Real(lane_state::kAbsorbed), next), now.state);
-    const Real drawn = one + one_if(mixed) + select(specular, zero, Real(2.0));
-    count_drawn(select(here, select(absorbed, one, drawn), zero));
+    const Real drawn = one + one_if(mixed) + where(!specular, Real(2.0));
+    count_drawn(where(here, select(absorbed, one, drawn)));
   }
 
   /// As core::sample_polarisation, of which at most two points are drawn.
@@ -270,7 +274,7 @@ class LaneSurfaces : protected LanePhotons<Real, kDraws, kOneWavelength> {
     now.light.polarisation =
         select(done, core::across_at<Real>(now.light.direction, point), now.light.polarisation);
     now.state = select(done, load(next_), now.state);
-    count_drawn(select(here, select(first, Real(1.0), Real(2.0)), Real(0.0)));
+    count_drawn(where(here, select(first, Real(1.0), Real(2.0))));
   }
 };
 
