@@ -75,9 +75,10 @@ TEST_CASE("Reflectance of s, p, mixed and unpolarised light is Fresnel's") {
 
 TEST_CASE("Light is transmitted from the random number on that is its reflectance") {
   const core::Triple<double> normal = triple(kNormal);
-  for (const auto& [n1, n2] : {std::pair{1.82, 1.0}, std::pair{1.0, 1.82}, std::pair{1.82, 1.5}})
+  for (const std::pair<double, double>& indices : {std::pair{1.82, 1.0}, {1.0, 1.82}, {1.82, 1.5}})
     for (const double degrees : {0.001, 5.0, 20.0, 33.0})
       for (const double polarisation : {0.0, 0.5 * kPi, 0.7}) {
+        const double n1 = indices.first, n2 = indices.second;
         CAPTURE(n1);
         CAPTURE(degrees);
         CAPTURE(polarisation);
