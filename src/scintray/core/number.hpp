@@ -115,10 +115,16 @@ struct Triple {
   }
 };
 
-/// Mirror image of the direction d in a plane with unit normal n (either orientation).
+/// Mirror image of the direction d in a plane with unit normal n (either orientation), by its component along
+/// n; of one that is 0 the direction itself.
+template <typename Real>
+Triple<Real> mirrored(const Triple<Real>& d, const Triple<Real>& n, const Real& along) {
+  return d - (Real(2.0) * along) * n;
+}
+/// The same, of any direction.
 template <typename Real>
 Triple<Real> mirrored(const Triple<Real>& d, const Triple<Real>& n) {
-  return d - (Real(2.0) * dot(d, n)) * n;
+  return mirrored(d, n, dot(d, n));
 }
 
 /// Two unit vectors across a unit vector, which form a right-handed frame with it.

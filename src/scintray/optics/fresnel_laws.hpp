@@ -87,7 +87,7 @@ template <typename Real>
 LightRay<Real> reflected_where(const core::MaskOf<Real>& condition, const LightRay<Real>& light,
                                const core::Triple<Real>& m) {
   const auto mirrored = [&](const core::Triple<Real>& v) {
-    return v - (Real(2.0) * where(condition, dot(v, m))) * m;
+    return core::mirrored(v, m, where(condition, dot(v, m)));
   };
   const core::Triple<Real> polarisation = mirrored(light.polarisation);
   const core::BitsOf<Real> sign = bits_of(where(condition, Real(-0.0)));
