@@ -110,12 +110,9 @@ GateIntegral gate_of(const ReadoutSpec& readout, std::size_t samples) {
 }
 
 std::vector<float> digitize(std::span<const double> waveform, const ReadoutSpec& readout, core::Rng& rng) {
-  std::vector<double> noisy(waveform.begin(), waveform.end());
-  if (readout.noise > 0.0) {
-    std::vector<double> noise(waveform.size());
-    core::sample_normals(rng, noise);
-    for (std::size_t i = 0; i < noise.size(); ++i) noisy[i] += readout.noise * noise[i];
-  }
+  std::vector<double> noisy(waveform.size());  // of the deviates, then of the samples
+  if (readout.noise > 0.0) core::sample_normals(rng, noisy);
+  for (std::size_t i = 0; i < noisy.size(); ++i) noisy[i] = waveform[i] + readout.noise * noisy[i];
   if (readout.adc_bits > 0)
     for (double& sample : noisy) sample = on_codes(sample, readout);
   return {noisy.begin(), noisy.end()};
