@@ -127,18 +127,18 @@ sys.exit(1 if status else 0)
 """
 
 
-def run(program, tree, scene, size, folder):
+def run(program, tree, scene, options, folder):
     """What a run on one thread took.
 
     program  the command, as a list of words; tree: the repository whose materials it takes, empty for its own
-    size     words that set the number of photons or events
+    options  words after the others, as the number of photons or events
     """
     import h5py
     import numpy
     output = Path(folder) / "out.h5"
     output.unlink(missing_ok=True)
     environment = {**os.environ, "SCINTRAY_DATA": str(tree)} if tree else None
-    words = ["run", str(scene), "-o", str(output), "--threads", "1", "--no-report", "--quiet", *size]
+    words = ["run", str(scene), "-o", str(output), "--threads", "1", "--no-report", "--quiet", *options]
     done = subprocess.run([sys.executable, "-IS", "-c", PEAK_OF, *program, *words],
                           capture_output=True, text=True, env=environment, check=False)
     if done.returncode != 0:

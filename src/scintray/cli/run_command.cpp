@@ -19,6 +19,7 @@
 #include "scintray/cli/watched_surfaces.hpp"
 #include "scintray/core/error.hpp"
 #include "scintray/core/file_lock.hpp"
+#include "scintray/core/lane_width.hpp"
 #include "scintray/core/units.hpp"
 #include "scintray/report/text/result_json.hpp"
 #include "scintray/simulation/results_file.hpp"
@@ -31,7 +32,7 @@ namespace {
 struct RunOptions {
   std::vector<std::filesystem::path> scenes;
   std::filesystem::path output;
-  std::optional<int> threads;
+  std::optional<int> threads, lane_width;
   std::optional<std::uint64_t> seed, photons, events;
   bool no_report = false;
   bool no_view = false;
@@ -52,6 +53,16 @@ std::filesystem::path output_path(const RunOptions& options, const std::filesyst
   std::filesystem::path results = file.spec(0).run.output;
   if (results.empty()) results = scene.stem().string() + ".h5";
   return options.shard ? shard_path(results, *options.shard) : results;
+}
+
+/// What is wrong with a number of lanes; empty for one of this processor.
+std::string problem_of_lane_width(const std::string& text) {
+  std::string widths;
+  for (const int width : core::lane_widths()) {
+    if (text == std::to_string(width)) return {};
+    widths += (widths.empty() ? "" : ", ") + std::to_string(width);
+  }
+  return "\"" + text + "\" is no number of lanes that this processor has: " + widths;
 }
 
 /// @throws CLI::ValidationError
@@ -80,6 +91,7 @@ simulation::CheckpointSettings checkpoint_settings(const RunOptions& options,
 simulation::SimulationOptions simulation_options(const RunOptions& options, ProgressLine& line) {
   simulation::SimulationOptions result;
   result.threads = options.threads;
+  result.lane_width = options.lane_width;
   result.seed = options.seed;
   result.photons = options.photons;
   result.events = options.events;
@@ -239,6 +251,10 @@ void add_run_command(CLI::App& app) {
   command->add_option("-o,--output", options->output, "results file (default: SCENE's name with .h5, here)");
   command->add_option("-t,--threads", options->threads, "number of threads (default: all cores)")
       ->transform(whole_count());
+  command
+      ->add_option("--lane-width", options->lane_width,
+                   "photons propagated at once, to compare speeds: no result depends on it")
+      ->check(CLI::Validator(problem_of_lane_width, "LANES"));
   command->add_option("--seed", options->seed, "seed, in place of the scene's");
   command->add_option("--photons", options->photons, "photons per point, in place of the scene's")
       ->transform(whole_count());

@@ -21,6 +21,7 @@ const mesh::MeshFormats& mesh_formats_of(const SimulationOptions& options,
 
 scene_file::SceneSpec with_options(scene_file::SceneSpec spec, const SimulationOptions& options) {
   if (options.threads) spec.run.threads = options.threads;
+  if (options.lane_width) spec.run.lane_width = options.lane_width;
   if (options.seed) spec.run.seed = *options.seed;
   const auto refuse = [&](const char* option, const char* source, const char* other) {
     throw core::InputError({spec.energy_source ? spec.energy_source->where : spec.source.where,
