@@ -143,11 +143,10 @@ tally::BlockRange trace_blocks(const TracedPoint& point, const RunSettings& sett
   std::uint64_t done = 0, kept = 0;
   bool is_enough = false;
   std::atomic<bool> ended{false};  // by a stop or because it is enough, where hooks decide that
-  const std::uint64_t together = tracer.together(blocks.count());
+  const BlockPieces pieces = tracer.pieces(blocks);
   const auto trace = [&](std::uint64_t piece) {
     if (hooks.enough && hooks.stop && hooks.stop->load()) ended = true;
-    const std::uint64_t first = blocks.first + piece * together;
-    return tracer.trace({first, std::min(first + together, blocks.last)});
+    return tracer.trace(pieces.at(piece));
   };
   const auto collect = [&](std::uint64_t, const std::vector<TracedBlock>& traced) {
     for (const TracedBlock& block : traced) {
@@ -161,8 +160,7 @@ tally::BlockRange trace_blocks(const TracedPoint& point, const RunSettings& sett
       ended = true;
     }
   };
-  const std::uint64_t pieces = (blocks.count() + together - 1) / together;
-  core::work_in_order(pieces, settings.threads, hooks.enough ? &ended : hooks.stop, trace, collect);
+  core::work_in_order(pieces.count(), settings.threads, hooks.enough ? &ended : hooks.stop, trace, collect);
   collector.end_range();
   return {blocks.first, blocks.first + kept};
 }

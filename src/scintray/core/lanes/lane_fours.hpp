@@ -66,14 +66,16 @@ void store_by_lane(const LaneBits<xsimd::avx2>* words, const Store& store) {
 }
 template <typename At>
 void load_fours(const At& at, LaneFours<LaneReal<xsimd::avx2>>& to) {
-  const __m256d a = _mm256_loadu_pd(at[0]), b = _mm256_loadu_pd(at[1]);
-  const __m256d c = _mm256_loadu_pd(at[2]), d = _mm256_loadu_pd(at[3]);
-  const __m256d ab = _mm256_unpacklo_pd(a, b), ba = _mm256_unpackhi_pd(a, b);
-  const __m256d cd = _mm256_unpacklo_pd(c, d), dc = _mm256_unpackhi_pd(c, d);
-  to.of[0].lanes = _mm256_permute2f128_pd(ab, cd, 0x20);
-  to.of[1].lanes = _mm256_permute2f128_pd(ba, dc, 0x20);
-  to.of[2].lanes = _mm256_permute2f128_pd(ab, cd, 0x31);
-  to.of[3].lanes = _mm256_permute2f128_pd(ba, dc, 0x31);
+  // Halves are joined as they are loaded, which leaves half of the exchanges between registers.
+  const auto two = [&](std::size_t lane, int first) {
+    return _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(at[lane] + first)),
+                                _mm_loadu_pd(at[lane + 2] + first), 1);
+  };
+  for (int i = 0; i < 4; i += 2) {
+    const __m256d a = two(0, i), b = two(1, i);
+    to.of[i].lanes = _mm256_unpacklo_pd(a, b);
+    to.of[i + 1].lanes = _mm256_unpackhi_pd(a, b);
+  }
 }
 #endif
 

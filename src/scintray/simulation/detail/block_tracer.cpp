@@ -14,6 +14,8 @@ namespace {
 
 /// Photons of which the ends are held at once, so that an event of any energy takes bounded memory.
 constexpr std::size_t kMostTogether = 8192;
+/// Blocks traced together. Of more the lanes would be fuller by less than can be measured.
+constexpr std::uint64_t kMostBlocksTogether = 8;
 /// Photons re-emitted in addition to one photon, above which the multiplication is taken as endless.
 constexpr std::uint64_t kMostAdditional = 1'000'000;
 
@@ -40,13 +42,11 @@ BlockTracer::BlockTracer(const TracedPoint& point, const RunSettings& settings)
       energy_(point.source.has_energy()),
       lanes_(point.lanes) {}
 
-std::uint64_t BlockTracer::together(std::uint64_t blocks) const {
-  constexpr std::uint64_t kMost = 8, kPiecesPerThread = 64;
-  if (lanes_.width() == 1 || energy_) return 1;
-  const std::uint64_t threads = settings_.threads > 0 ? static_cast<std::uint64_t>(settings_.threads)
-                                                      : std::thread::hardware_concurrency();
-  return std::clamp<std::uint64_t>(blocks / (kPiecesPerThread * std::max<std::uint64_t>(threads, 1)), 1,
-                                   kMost);
+BlockPieces BlockTracer::pieces(const tally::BlockRange& blocks) const {
+  const bool together = lanes_.width() > 1 && !energy_;
+  const auto threads = static_cast<std::uint64_t>(std::max(settings_.threads, 0));
+  return {blocks, together ? kMostBlocksTogether : 1,
+          threads > 0 ? threads : std::max(1U, std::thread::hardware_concurrency())};
 }
 
 std::vector<TracedBlock> BlockTracer::trace(const tally::BlockRange& numbers) const {

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <vector>
 
+#include "scintray/simulation/detail/block_pieces.hpp"
 #include "scintray/simulation/run_point.hpp"
 #include "scintray/tally/block_tally.hpp"
 #include "scintray/tally/event_tally.hpp"
@@ -42,9 +43,8 @@ class BlockTracer {
   /// The arguments have to outlive the tracer.
   BlockTracer(const TracedPoint& point, const RunSettings& settings);
 
-  /// How many of a number of blocks are best traced together. The lanes are full until the last photons of
-  /// all are under way, and no result depends on it; threads need several pieces of work each.
-  std::uint64_t together(std::uint64_t blocks) const;
+  /// Pieces of work that these blocks are best traced in.
+  BlockPieces pieces(const tally::BlockRange& blocks) const;
 
   /// Traces successive blocks.
   std::vector<TracedBlock> trace(const tally::BlockRange& numbers) const;

@@ -30,6 +30,7 @@ class LanePasses : LaneSurfaces<Real, kDraws, kOneWavelength> {
   using Surfaces::load_faces;
   using Surfaces::number_of_lanes;
   using Surfaces::one_if;
+  using Surfaces::one_of;
   using Surfaces::pass_microsurface;
   using Surfaces::path_mm_;
   using Surfaces::photon_;
@@ -217,7 +218,7 @@ class LanePasses : LaneSurfaces<Real, kDraws, kOneWavelength> {
     const double* gaps[kWidth];
     for (std::size_t lane = 0; lane < kWidth; ++lane) {
       const LaneFace& face = photon_[lane]->region.faces[static_cast<std::size_t>(plane_[lane])];
-      gaps[lane] = ((lanes >> lane & 1) != 0 ? face.gap : &kNone)->normal;
+      gaps[lane] = one_of(lanes >> lane & 1, face.gap, &kNone)->normal;
     }
     const LaneFours<Real> plane = row_of(gaps, 0), first = row_of(gaps, 1), second = row_of(gaps, 2),
                           last = row_of(gaps, 3);
@@ -288,10 +289,11 @@ class LanePasses : LaneSurfaces<Real, kDraws, kOneWavelength> {
     for (std::size_t lane = 0; lane < kWidth; ++lane) {
       LanePhoton& photon = *photon_[lane];
       const LaneRegion* const behind = face_of(now, lane).behind;
-      const bool enters = (may >> lane & 1) != 0 && behind != nullptr;
-      photon.region = *(enters ? behind : &photon.region);
-      media[lane] = photon.optics[photon.region.medium].of;
-      entering |= (enters ? 1U : 0U) << lane;
+      const unsigned enters = may >> lane & (behind != nullptr ? 1U : 0U);
+      const LaneRegion* const next = one_of(enters, behind, static_cast<const LaneRegion*>(&photon.region));
+      photon.region = *next;
+      media[lane] = photon.optics[next->medium].of;
+      entering |= enters << lane;
       at_gaps |= photon.region.has_gaps << lane;
     }
     if (entering == 0) {

@@ -26,6 +26,7 @@ class LaneSurfaces : protected LanePhotons<Real, kDraws, kOneWavelength> {
   using Photons::next_numbers;
   using Photons::number_of_lanes;
   using Photons::one_if;
+  using Photons::one_of;
   using Photons::optics_of;
   using Photons::store;
   using typename Photons::Bits;
