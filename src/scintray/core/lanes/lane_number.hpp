@@ -52,6 +52,19 @@ static inline __m256d kept_lanes(__m256d lanes, __m256d x) { return _mm256_and_p
 static inline __m512d kept_lanes(__mmask8 lanes, __m512d x) { return _mm512_maskz_mov_pd(lanes, x); }
 #endif
 
+// The opposite of a comparison. xsimd 8.1 takes an AVX register apart for it.
+static inline __m128d other_lanes(__m128d lanes) {
+  return _mm_xor_pd(lanes, _mm_castsi128_pd(_mm_set1_epi64x(-1)));
+}
+#ifdef __AVX2__
+static inline __m256d other_lanes(__m256d lanes) {
+  return _mm256_xor_pd(lanes, _mm256_castsi256_pd(_mm256_set1_epi64x(-1)));
+}
+#endif
+#ifdef __AVX512F__
+static inline __mmask8 other_lanes(__mmask8 lanes) { return static_cast<__mmask8>(~lanes); }
+#endif
+
 /// The results of a comparison in each lane.
 template <typename Arch>
 struct LaneMask {
@@ -66,7 +79,7 @@ struct LaneMask {
 
   friend LaneMask operator&(const LaneMask& a, const LaneMask& b) { return {a.lanes & b.lanes}; }
   friend LaneMask operator|(const LaneMask& a, const LaneMask& b) { return {a.lanes | b.lanes}; }
-  friend LaneMask operator!(const LaneMask& a) { return {!a.lanes}; }
+  friend LaneMask operator!(const LaneMask& a) { return {other_lanes(a.lanes)}; }
   friend bool any(const LaneMask& a) { return xsimd::any(a.lanes); }
   friend unsigned lanes_of(const LaneMask& a) { return bits_of_lanes(a.lanes); }
   friend bool all(const LaneMask& a) { return xsimd::all(a.lanes); }

@@ -168,15 +168,12 @@ class LanePasses : LaneSurfaces<Real, kDraws, kOneWavelength> {
   LaneAhead<Real> nearest_plane(const Vector& local, const Vector& direction) const {
     LaneAhead<Real> nearest;
     const LaneRegion& one = photon_[0]->region;
-    bool same = true;
-    std::size_t count = one.count;
-    for (std::size_t lane = 1; lane < kWidth; ++lane) {
-      const LaneRegion& region = photon_[lane]->region;
-      same = same && region.planes == one.planes;
-      count = region.count > count ? region.count : count;
-    }
-    if (same) {
-      for (std::size_t i = 0; i < count; ++i) {
+    std::uintptr_t others = 0;
+    for (std::size_t lane = 1; lane < kWidth; ++lane)
+      others |= reinterpret_cast<std::uintptr_t>(photon_[lane]->region.planes) ^
+                reinterpret_cast<std::uintptr_t>(one.planes);
+    if (others == 0) {
+      for (std::size_t i = 0; i < one.count; ++i) {
         const PlanePair& planes = one.planes[i];
         nearest.take({Real(planes.normal[0]), Real(planes.normal[1]), Real(planes.normal[2])},
                      Real(planes.first_mm), Real(planes.second_mm), local, direction,
@@ -184,6 +181,9 @@ class LanePasses : LaneSurfaces<Real, kDraws, kOneWavelength> {
       }
       return nearest;
     }
+    std::size_t count = 0;
+    for (const LanePhoton* photon : photon_)
+      count = photon->region.count > count ? photon->region.count : count;
     for (std::size_t i = 0; i < count; ++i) {
       const double *first[kWidth], *second[kWidth];
       for (std::size_t lane = 0; lane < kWidth; ++lane) {

@@ -148,7 +148,7 @@ class LanePhotons {
     if constexpr (kDraws == LaneDraws::in_lanes)
       draw_in_lanes(ready <= Real(static_cast<double>(LanePhoton::kNumbers - 4)));
     else
-      draw_one_by_one(lanes_of(lack));
+      draw_one_by_one(photon_, next_block_, lanes_of(lack));
   }
   /// Four random numbers of each photon.
   struct Random {
@@ -251,12 +251,14 @@ class LanePhotons {
   /// A whole number from 0 to 7 as bits.
   static Bits whole(const Real& number) { return bits_of(number + Real(0x1.0p52)) & Bits(7); }
 
+  /// Not inlined, so that it has the registers for itself.
   /// @param lanes  a bit for each
-  void draw_one_by_one(unsigned lanes) {
+  [[gnu::noinline]] static void draw_one_by_one(LanePhoton* const* photons, std::uint64_t* next_block,
+                                                unsigned lanes) {
     for (; lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<std::size_t>(__builtin_ctz(lanes));
-      LanePhoton& photon = *photon_[lane];
-      const std::uint64_t number = next_block_[lane]++;
+      LanePhoton& photon = *photons[lane];
+      const std::uint64_t number = next_block[lane]++;
       const core::PhiloxBlock<std::uint64_t> block(
           {number, photon.counter[0], photon.counter[1], photon.counter[2]}, {photon.key[0], photon.key[1]});
       const std::size_t first = number * 4 % LanePhoton::kNumbers;
