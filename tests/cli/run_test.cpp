@@ -3,6 +3,7 @@
 #include "cli/dark_crystal.hpp"
 #include "cli/program.hpp"
 #include "scintray/cli/exit_codes.hpp"
+#include "scintray/core/lane_width.hpp"
 #include "scintray/results/results.hpp"
 #include "support/shared.hpp"
 #include "support/small_crystal.hpp"
@@ -75,6 +76,26 @@ TEST_CASE("run writes results and a report, prints where they are, and is quiet 
   CHECK(result.points.at(0).lost == 0);
   const auto listed = read_photons(folder / "scene.h5", 0, 100'000);
   CHECK(listed.size() == result.points.at(0).count(Fate::detected));
+}
+
+TEST_CASE("Photons propagated at once change no result, and are as many as the processor has lanes") {
+  const auto folder = folder_with("lanes", scene_text(5'000, true));
+  std::vector<float> first;
+  for (const int width : core::lane_widths()) {
+    CAPTURE(width);
+    const Ended ended =
+        run_program({"run", "scene.toml", "--no-report", "--lane-width", std::to_string(width)}, folder);
+    CHECK(ended.exit_code == cli::kSuccess);
+    std::vector<float> times;
+    for (const DetectedPhoton& photon : read_photons(folder / "scene.h5", 0, 5'000))
+      times.push_back(photon.time_ns);
+    REQUIRE(!times.empty());
+    if (first.empty()) first = times;
+    CHECK(times == first);
+  }
+  const Ended refused = run_program({"run", "scene.toml", "--lane-width", "3"}, folder);
+  CHECK(refused.exit_code == cli::kBadUsage);
+  CHECK(contains(refused.output, "--lane-width: \"3\" is no number of lanes that this processor has: 1"));
 }
 
 TEST_CASE("Ctrl-C keeps what was traced, marks it partial, and exits with 130") {

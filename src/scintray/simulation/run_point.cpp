@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scintray/core/in_order.hpp"
+#include "scintray/simulation/detail/block_pieces.hpp"
 #include "scintray/simulation/detail/block_tracer.hpp"
 #include "scintray/transport/step.hpp"
 

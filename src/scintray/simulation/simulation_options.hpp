@@ -15,9 +15,8 @@
 namespace scintray::simulation {
 
 struct SimulationOptions {
-  std::optional<int> threads;  ///< replaces the scene's
-  std::optional<int>
-      lane_width;  ///< photons propagated at once, of core::lane_widths(); no result depends on it
+  std::optional<int> threads;     ///< replaces the scene's
+  std::optional<int> lane_width;  ///< photons propagated at once; no result depends on it
   std::optional<std::uint64_t> seed;
   std::optional<std::uint64_t> photons;  ///< per point, of a source of photons
   std::optional<std::uint64_t> events;   ///< per point, of an event source
