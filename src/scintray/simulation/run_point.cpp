@@ -144,7 +144,7 @@ tally::BlockRange trace_blocks(const TracedPoint& point, const RunSettings& sett
   std::uint64_t done = 0, kept = 0;
   bool is_enough = false;
   std::atomic<bool> ended{false};  // by a stop or because it is enough, where hooks decide that
-  const BlockPieces pieces = tracer.pieces(blocks);
+  const BlockPieces pieces = tracer.pieces(blocks, hooks.enough != nullptr);
   const auto trace = [&](std::uint64_t piece) {
     if (hooks.enough && hooks.stop && hooks.stop->load()) ended = true;
     return tracer.trace(pieces.at(piece));

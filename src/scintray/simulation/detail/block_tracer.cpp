@@ -42,11 +42,11 @@ BlockTracer::BlockTracer(const TracedPoint& point, const RunSettings& settings)
       energy_(point.source.has_energy()),
       lanes_(point.lanes) {}
 
-BlockPieces BlockTracer::pieces(const tally::BlockRange& blocks) const {
+BlockPieces BlockTracer::pieces(const tally::BlockRange& blocks, bool may_have_enough) const {
   const bool together = lanes_.width() > 1 && !energy_;
   const auto threads = static_cast<std::uint64_t>(std::max(settings_.threads, 0));
   return {blocks, together ? kMostBlocksTogether : 1,
-          threads > 0 ? threads : std::max(1U, std::thread::hardware_concurrency())};
+          threads > 0 ? threads : std::max(1U, std::thread::hardware_concurrency()), may_have_enough};
 }
 
 std::vector<TracedBlock> BlockTracer::trace(const tally::BlockRange& numbers) const {

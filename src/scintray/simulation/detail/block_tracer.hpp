@@ -44,7 +44,8 @@ class BlockTracer {
   BlockTracer(const TracedPoint& point, const RunSettings& settings);
 
   /// Pieces of work that these blocks are best traced in.
-  BlockPieces pieces(const tally::BlockRange& blocks) const;
+  /// @param may_have_enough  the run may end before the last block
+  BlockPieces pieces(const tally::BlockRange& blocks, bool may_have_enough) const;
 
   /// Traces successive blocks.
   std::vector<TracedBlock> trace(const tally::BlockRange& numbers) const;
