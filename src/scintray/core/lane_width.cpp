@@ -21,7 +21,7 @@ std::vector<int> find_widths() {
   std::vector<int> widths{1};
 #if defined(__x86_64__)
   widths.push_back(2);
-  // Kernels are compiled with BMI2, which all processors with AVX2 have; a virtual machine may hide it.
+  // Kernels are compiled with BMI2, which processors with AVX2 have (assumed); a virtual machine may hide it.
   if (__builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2")) {
     if (__builtin_cpu_supports("avx2")) widths.push_back(4);
     if (__builtin_cpu_supports("avx512f")) widths.push_back(8);

@@ -14,7 +14,8 @@ namespace {
 
 /// Photons of which the ends are held at once, so that an event of any energy takes bounded memory.
 constexpr std::size_t kMostTogether = 8192;
-/// Blocks traced together. Of more the lanes would be fuller by less than can be measured.
+/// Blocks traced together. Of many more, photons that wait until the end keep those after them from being
+/// handed over.
 constexpr std::uint64_t kMostBlocksTogether = 8;
 /// Photons re-emitted in addition to one photon, above which the multiplication is taken as endless.
 constexpr std::uint64_t kMostAdditional = 1'000'000;

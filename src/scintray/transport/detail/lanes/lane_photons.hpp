@@ -53,6 +53,7 @@ class LanePhotons {
     const auto a = reinterpret_cast<std::uintptr_t>(yes), b = reinterpret_cast<std::uintptr_t>(no);
     return reinterpret_cast<T*>(b ^ ((a ^ b) & -first));
   }
+
   static int number_of_lanes(const Mask& mask) { return __builtin_popcount(lanes_of(mask)); }
 
   using Light = optics::LightRay<Real>;
