@@ -115,7 +115,7 @@ inline std::array<std::uint64_t, 4> philox4x64(std::array<std::uint64_t, 4> coun
                                                std::array<std::uint64_t, 2> key) {
   using Block = PhiloxBlock<std::uint64_t>;
   const Block block(Block::Counter{{counter[0], counter[1], counter[2], counter[3]}},
-                    Block::Key{{key[0], key[1]}});
+                    PhiloxKeys<std::uint64_t>(key[0], key[1]));
   return {block.words[0], block.words[1], block.words[2], block.words[3]};
 }
 

@@ -26,31 +26,39 @@ struct WideProduct {
 #endif
 }
 
+/// The keys of all rounds.
+template <typename Bits>
+struct PhiloxKeys {
+  Bits of[10][2];
+
+  PhiloxKeys() = default;
+  [[gnu::always_inline]] PhiloxKeys(const Bits& first, const Bits& second) : of{{first, second}} {
+    for (int round = 1; round < 10; ++round) {
+      of[round][0] = of[round - 1][0] + Bits(0x9E3779B97F4A7C15ULL);
+      of[round][1] = of[round - 1][1] + Bits(0xBB67AE8584CAA73BULL);
+    }
+  }
+};
+
 /// 256 random bits of a counter under a key.
 template <typename Bits>
 struct PhiloxBlock {
   struct Counter {
     Bits of[4];
   };
-  struct Key {
-    Bits of[2];
-  };
   Bits words[4];
 
-  [[gnu::always_inline]] PhiloxBlock(const Counter& counter, Key key)
+  /// @tparam Key  Bits, or std::uint64_t where all lanes have one key
+  template <typename Key>
+  [[gnu::always_inline]] PhiloxBlock(const Counter& counter, const PhiloxKeys<Key>& keys)
       : words{counter.of[0], counter.of[1], counter.of[2], counter.of[3]} {
     constexpr std::uint64_t kMultiplier[2] = {0xD2E7470EE14C6C93ULL, 0xCA5A826395121157ULL};
-    constexpr std::uint64_t kWeyl[2] = {0x9E3779B97F4A7C15ULL, 0xBB67AE8584CAA73BULL};
     for (int round = 0; round < 10; ++round) {
-      if (round > 0) {
-        key.of[0] = key.of[0] + Bits(kWeyl[0]);
-        key.of[1] = key.of[1] + Bits(kWeyl[1]);
-      }
       const WideProduct<Bits> first = wide_product(words[0], Bits(kMultiplier[0]));
       const WideProduct<Bits> second = wide_product(words[2], Bits(kMultiplier[1]));
-      words[0] = second.high ^ words[1] ^ key.of[0];
+      words[0] = second.high ^ words[1] ^ Bits(keys.of[round][0]);
       words[1] = second.low;
-      words[2] = first.high ^ words[3] ^ key.of[1];
+      words[2] = first.high ^ words[3] ^ Bits(keys.of[round][1]);
       words[3] = first.low;
     }
   }

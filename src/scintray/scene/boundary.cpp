@@ -66,6 +66,25 @@ std::uint32_t pair_opposite(std::vector<BoundingPlane>& planes) {
   return static_cast<std::uint32_t>(paired - planes.begin());
 }
 
+/// Brings the planes of a box along the axes into the order of Boundary::is_box; false for any others.
+bool order_as_box(std::vector<BoundingPlane>& planes) {
+  if (planes.size() != 6) return false;
+  std::vector<BoundingPlane> ordered;
+  for (const core::PlainVec3 axis :
+       {core::PlainVec3(1, 0, 0), core::PlainVec3(0, 1, 0), core::PlainVec3(0, 0, 1)})
+    for (const double sign : {1.0, -1.0}) {
+      const core::PlainVec3 normal(sign * axis.x(), sign * axis.y(), sign * axis.z());
+      const auto found = std::find_if(planes.begin(), planes.end(),
+                                      [&](const BoundingPlane& plane) { return plane.normal == normal; });
+      if (found == planes.end()) return false;
+      ordered.push_back(*found);
+      // Without negative zeros.
+      ordered.back().normal = core::PlainVec3(normal.x() + 0.0, normal.y() + 0.0, normal.z() + 0.0);
+    }
+  planes = std::move(ordered);
+  return true;
+}
+
 /// Sets the planes of a convex region with few of them; false for any other region.
 bool find_planes(const std::vector<std::uint32_t>& labels, Boundary& boundary) {
   if (!boundary.closed || boundary.size() == 0) return false;
@@ -102,7 +121,8 @@ bool find_planes(const std::vector<std::uint32_t>& labels, Boundary& boundary) {
     plane_triangles.insert(plane_triangles.end(), on[i].begin(), on[i].end());
     plane.triangles_end = static_cast<std::uint32_t>(plane_triangles.size());
   }
-  boundary.opposite_planes = pair_opposite(planes);
+  boundary.is_box = order_as_box(planes);
+  boundary.opposite_planes = boundary.is_box ? 6 : pair_opposite(planes);
   boundary.planes = std::move(planes);
   boundary.plane_triangles = std::move(plane_triangles);
   return true;

@@ -80,6 +80,7 @@ struct Boundary {
   std::vector<TrianglePlane> triangle_planes;
   std::vector<BoundingPlane> planes;           ///< of a convex region with few; else empty
   std::uint32_t opposite_planes = 0;           ///< of these, the first: two by two with opposite normals
+  bool is_box = false;                         ///< six planes, with the normals x, -x, y, -y, z and -z
   std::vector<std::uint32_t> plane_triangles;  ///< ranges of BoundingPlane
   ExactBodies exact;                           ///< round bodies; empty: all triangles are faces as they are
   MergedTriangles merged;                      ///< that Embree searches; empty: the triangles as they are

@@ -84,9 +84,10 @@ class Batch::Tracing {
   bool in_flight() const {
     return !alone_.empty() || !waiting_.empty() || !for_surface_lanes_.empty() || !surface_lanes_.empty();
   }
-  LaneKind kind_of(const source::Photon& photon) const {
-    const LaneKind kind = lanes_.kind(photon.region);
-    return kind == LaneKind::surfaces && !surface_lanes_.takes(photon) ? LaneKind::none : kind;
+  LaneKind kind_of(const Traveller& traveller) const {
+    const LaneKind kind = lanes_.kind(traveller.photon.region);
+    const bool taken = kind != LaneKind::surfaces || surface_lanes_.takes(traveller.photon, traveller.rng);
+    return taken ? kind : LaneKind::none;
   }
   void enqueue(std::uint32_t traveller);
   void trace_in_surface_lanes();
@@ -187,7 +188,6 @@ void Batch::Tracing::start() {
       traveller.index = next_++;
       traveller.segments = 0;
       traveller.segments_before = traveller.resolved_before = 0;
-      traveller.angles_of = {};
       enqueue(place);
     }
     ended_.resize(ended_.size() - count);
@@ -196,7 +196,7 @@ void Batch::Tracing::start() {
 
 void Batch::Tracing::enqueue(std::uint32_t index) {
   const source::Photon& photon = travellers_[index].photon;
-  switch (kind_of(photon)) {
+  switch (kind_of(travellers_[index])) {
     case LaneKind::none:
       alone_.push_back(index);
       break;
@@ -214,7 +214,7 @@ void Batch::Tracing::trace_alone(std::uint32_t index) {
   do {
     if (!goes_on(traveller, step(scene_, traveller.photon, traveller.rng, limits_)))
       return ended_.push_back(index);
-  } while (kind_of(traveller.photon) == LaneKind::none);
+  } while (kind_of(traveller) == LaneKind::none);
   enqueue(index);
 }
 

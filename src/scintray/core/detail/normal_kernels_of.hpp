@@ -21,7 +21,7 @@ template <typename Real>
   for (std::size_t first = 0; first < NormalLanes::kBlocks; first += kWidth) {
     const PhiloxBlock<Bits> block({Bits(lanes.counter[0] + first) + step, Bits(lanes.counter[1]),
                                    Bits(lanes.counter[2]), Bits(lanes.counter[3])},
-                                  {Bits(lanes.key[0]), Bits(lanes.key[1])});
+                                  core::PhiloxKeys<std::uint64_t>(lanes.key[0], lanes.key[1]));
     std::uint64_t* to[kWidth];
     for (std::size_t lane = 0; lane < kWidth; ++lane)
       to[lane] = lanes.numbers + NormalLanes::kLeft + 4 * (first + lane);

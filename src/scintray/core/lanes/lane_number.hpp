@@ -65,6 +65,40 @@ static inline __m256d other_lanes(__m256d lanes) {
 static inline __mmask8 other_lanes(__mmask8 lanes) { return static_cast<__mmask8>(~lanes); }
 #endif
 
+// `negative` where the sign bit of x is set, else `positive`. By an instruction of its own, since GCC 12
+// compares what it selects by with 0 before.
+static inline __m128d chosen_by_sign(__m128d x, __m128d positive, __m128d negative) {
+  const __m128d lanes =
+      _mm_castsi128_pd(_mm_shuffle_epi32(_mm_srai_epi32(_mm_castpd_si128(x), 31), _MM_SHUFFLE(3, 3, 1, 1)));
+  return _mm_or_pd(_mm_and_pd(lanes, negative), _mm_andnot_pd(lanes, positive));
+}
+#ifdef __AVX2__
+static inline __m256d chosen_by_sign(__m256d x, __m256d positive, __m256d negative) {
+  asm("vblendvpd %2, %1, %0, %0" : "+x"(positive) : "xm"(negative), "x"(x));
+  return positive;
+}
+#endif
+#ifdef __AVX512F__
+static inline __m512d chosen_by_sign(__m512d x, __m512d positive, __m512d negative) {
+  return _mm512_mask_blend_pd(_mm512_cmp_pd_mask(x, _mm512_setzero_pd(), _CMP_LT_OQ), positive, negative);
+}
+#endif
+
+// What a comparison selects.
+static inline __m128d selected_lanes(__m128d lanes, __m128d yes, __m128d no) {
+  return _mm_or_pd(_mm_and_pd(lanes, yes), _mm_andnot_pd(lanes, no));
+}
+#ifdef __AVX2__
+static inline __m256d selected_lanes(__m256d lanes, __m256d yes, __m256d no) {
+  return chosen_by_sign(lanes, no, yes);
+}
+#endif
+#ifdef __AVX512F__
+static inline __m512d selected_lanes(__mmask8 lanes, __m512d yes, __m512d no) {
+  return _mm512_mask_blend_pd(lanes, no, yes);
+}
+#endif
+
 /// The results of a comparison in each lane.
 template <typename Arch>
 struct LaneMask {
@@ -164,11 +198,21 @@ struct LaneReal {
   friend Mask operator>=(const LaneReal& a, const LaneReal& b) { return {a.lanes >= b.lanes}; }
   friend Mask operator==(const LaneReal& a, const LaneReal& b) { return {a.lanes == b.lanes}; }
   friend LaneReal select(const Mask& condition, const LaneReal& yes, const LaneReal& no) {
-    return xsimd::select(condition.lanes, yes.lanes, no.lanes);
+    return Lanes(selected_lanes(condition.lanes, yes.lanes, no.lanes));
   }
   /// x where the condition holds, else 0.
   friend LaneReal where(const Mask& condition, const LaneReal& x) {
     return Lanes(kept_lanes(condition.lanes, x.lanes));
+  }
+  /// As core::least and core::greatest, which their instructions are.
+  friend LaneReal least(const LaneReal& a, const LaneReal& b) { return xsimd::min(a.lanes, b.lanes); }
+  friend LaneReal greatest(const LaneReal& a, const LaneReal& b) { return xsimd::max(a.lanes, b.lanes); }
+  friend LaneReal select_by_sign(const LaneReal& x, const LaneReal& positive, const LaneReal& negative) {
+    return Lanes(chosen_by_sign(x.lanes, positive.lanes, negative.lanes));
+  }
+  /// -x where the condition holds, else x.
+  friend LaneReal negated(const Mask& condition, const LaneReal& x) {
+    return number_of(bits_of(x) ^ bits_of(where(condition, LaneReal(-0.0))));
   }
   friend Bits bits_of(const LaneReal& x) { return xsimd::bitwise_cast<typename Bits::Lanes>(x.lanes); }
   friend LaneReal root(const LaneReal& x) { return xsimd::sqrt(x.lanes); }
@@ -286,6 +330,19 @@ struct LaneRealPair {
   }
   friend LaneRealPair where(const Mask& condition, const LaneRealPair& x) {
     return {where(condition.a, x.a), where(condition.b, x.b)};
+  }
+  friend LaneRealPair least(const LaneRealPair& x, const LaneRealPair& y) {
+    return {least(x.a, y.a), least(x.b, y.b)};
+  }
+  friend LaneRealPair greatest(const LaneRealPair& x, const LaneRealPair& y) {
+    return {greatest(x.a, y.a), greatest(x.b, y.b)};
+  }
+  friend LaneRealPair select_by_sign(const LaneRealPair& x, const LaneRealPair& positive,
+                                     const LaneRealPair& negative) {
+    return {select_by_sign(x.a, positive.a, negative.a), select_by_sign(x.b, positive.b, negative.b)};
+  }
+  friend LaneRealPair negated(const Mask& condition, const LaneRealPair& x) {
+    return {negated(condition.a, x.a), negated(condition.b, x.b)};
   }
   friend Bits bits_of(const LaneRealPair& x) { return {bits_of(x.a), bits_of(x.b)}; }
   friend LaneRealPair root(const LaneRealPair& x) { return {root(x.a), root(x.b)}; }

@@ -53,7 +53,8 @@ LanePlanes LaneFaces::planes() const {
   static_assert(std::is_standard_layout_v<Plane> && offsetof(Plane, normal) == 0 &&
                 offsetof(Plane, offset) == 3 * sizeof(double) && sizeof(Plane) % sizeof(double) == 0);
   return {reinterpret_cast<const double*>(boundary_->planes.data()), sizeof(Plane) / sizeof(double),
-          static_cast<std::uint32_t>(boundary_->planes.size()), boundary_->opposite_planes};
+          static_cast<std::uint32_t>(boundary_->planes.size()), boundary_->opposite_planes,
+          boundary_->is_box};
 }
 
 LaneBody LaneFaces::body() const {

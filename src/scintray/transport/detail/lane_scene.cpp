@@ -93,6 +93,7 @@ LaneScene::LaneScene(const scene::Scene& scene, const LaneKinds& kinds) : scene_
     LaneRegion& region = regions_[id].region;
     if (region.planes != nullptr) return;
     region.planes = any_planes().planes;
+    region.box = any_planes().box;
     region.count = any_planes().count;
   });
   initial_ = initial_records();
@@ -107,10 +108,12 @@ LaneScene::LaneScene(const scene::Scene& scene, const LaneKinds& kinds) : scene_
 
 LaneRegion LaneScene::any_planes() const {
   static constexpr PlanePair kPlanes{};
+  static constexpr LaneBoxPlaces kBox{};
   static constexpr LaneFace kFaces[2] = {};
   LaneRegion region;
   region.planes = any_planes_.planes == nullptr ? &kPlanes : any_planes_.planes;
   region.count = any_planes_.planes == nullptr ? 1 : any_planes_.count;
+  region.box = any_planes_.box == nullptr ? &kBox : any_planes_.box;
   region.faces = kFaces;
   return region;
 }
@@ -127,6 +130,11 @@ const LaneScene::Shape& LaneScene::shape_of(const scene::Region& region) {
 }
 
 void LaneScene::add_planes(const scene::Boundary& boundary, Shape& shape) {
+  has_boxes_alone_ = has_boxes_alone_ && boundary.is_box;
+  for (std::size_t axis = 0; boundary.is_box && axis < 3; ++axis) {
+    shape.box.first_mm[axis] = boundary.planes[2 * axis].offset;
+    shape.box.second_mm[axis] = boundary.planes[2 * axis + 1].offset;
+  }
   for (std::size_t i = 0; i < boundary.planes.size();) {
     const scene::BoundingPlane& first = boundary.planes[i];
     const bool paired = i < boundary.opposite_planes;
@@ -204,7 +212,9 @@ void LaneScene::make_faces(core::RegionId id) {
   if (!shape.planes.empty()) {
     made.region.planes = shape.planes.data();
     made.region.count = static_cast<std::uint32_t>(shape.planes.size());
+    made.region.box = &shape.box;
     if (any_planes_.planes == nullptr) any_planes_ = made.region;
+    has_one_shape_ = has_one_shape_ && any_planes_.planes == made.region.planes;
   }
   has_gaps_ = has_gaps_ || region.thin_gaps;
   made.region.has_gaps = region.thin_gaps ? 1 : 0;

@@ -53,6 +53,10 @@ class LaneScene {
   std::size_t face_count(core::RegionId id) const { return regions_[id].faces.size(); }
   /// Planes and faces for lanes without a photon, in which neither is used.
   LaneRegion any_planes() const;
+  /// Whether all regions bounded by planes are boxes, as of scene::Boundary::is_box.
+  bool has_boxes_alone() const { return has_boxes_alone_; }
+  /// Whether all regions bounded by planes have one shape.
+  bool has_one_shape() const { return has_one_shape_; }
   /// Whether some region has gaps.
   bool has_gaps() const { return has_gaps_; }
   /// Whether some face has a region behind it that is in lanes as well.
@@ -78,6 +82,7 @@ class LaneScene {
   /// Planes or gaps around regions of one shape.
   struct Shape {
     std::vector<PlanePair> planes;  ///< none where there are gaps
+    LaneBoxPlaces box{};            ///< of a box
     std::vector<LaneGap> gaps;
     std::vector<std::uint32_t> triangles;         ///< of each face; two per PlanePair
     std::vector<bool> mixed;                      ///< likewise: the face leads to several regions
@@ -103,7 +108,7 @@ class LaneScene {
     Total total = Total::none;
   };
 
-  static void add_planes(const scene::Boundary& boundary, Shape& shape);
+  void add_planes(const scene::Boundary& boundary, Shape& shape);
   static void add_gaps(const scene::Accelerator& accelerator, Shape& shape);
   const Shape& shape_of(const scene::Region& region);
   void make_faces(core::RegionId id);
@@ -129,7 +134,7 @@ class LaneScene {
   core::IdVector<core::AcceleratorId, Shape> shapes_;  ///< without triangles: not made
   core::IdVector<core::RegionId, MadeRegion> regions_;
   LaneRegion any_planes_;
-  bool has_gaps_ = false, has_neighbours_ = false;
+  bool has_boxes_alone_ = true, has_one_shape_ = true, has_gaps_ = false, has_neighbours_ = false;
   std::vector<AlikeFaces> alike_;
   std::vector<core::MediumId> media_;
   std::vector<LaneRecord> initial_;  ///< initial_records()
@@ -145,8 +150,10 @@ class SurfaceLanes {
   SurfaceLanes(const scene::Scene& scene, const LaneScene& lanes, const PropagationLimits& limits,
                RunLanes kernel);
 
-  /// Whether a photon in a region of LaneKind::surfaces can be entered.
-  bool takes(const source::Photon& photon) const {
+  /// Whether a photon in a region of LaneKind::surfaces can be entered: all have one seed, and in scenes of
+  /// one wavelength one wavelength.
+  bool takes(const source::Photon& photon, const core::Rng& rng) const {
+    if (key_ && *key_ != rng.key()) return false;
     if (pool_.one_wavelength && photon.wavelength_nm != at_first_.wavelength_nm) return false;
     const scene::Region& region = scene_.regions[photon.region];
     return !region.thin_gaps || lane_scene_.face_at_gap(region, photon.on_triangle).has_value();
@@ -181,7 +188,9 @@ class SurfaceLanes {
   PropagationLimits limits_;
   RunLanes run_;
   const LaneScene& lane_scene_;
-  LaneScene::AtWavelength at_first_;          ///< of the first photon
+  std::optional<std::array<std::uint64_t, 2>>
+      key_;                           ///< of the random numbers of all photons; none: none was entered
+  LaneScene::AtWavelength at_first_;  ///< of the first photon
   std::vector<LaneScene::AtWavelength> own_;  ///< by slot, of photons of other wavelengths
   LanePool pool_;
   std::array<std::uint32_t, LanePool::kPhotons> names_{};

@@ -12,7 +12,7 @@ inline constexpr double kTimePerLength_ns_per_mm = 1.0 / 299.792458;
 /// Time of flight (ns) along a path, at the group velocity.
 template <typename Real>
 Real time_along(const Real& distance_mm, const Real& group_index) {
-  return distance_mm * group_index * Real(kTimePerLength_ns_per_mm);
+  return distance_mm * (group_index * Real(kTimePerLength_ns_per_mm));
 }
 
 /// True where a smooth boundary reflects totally.

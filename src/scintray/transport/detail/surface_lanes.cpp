@@ -39,10 +39,16 @@ SurfaceLanes::SurfaceLanes(const scene::Scene& scene, const LaneScene& lanes, co
   if (pool_.one_wavelength) lanes.set_wavelength(scene.low_nm, at_first_);
   pool_.has_neighbours = lanes.has_neighbours();
   pool_.has_gaps = lane_scene_.has_gaps();
+  pool_.boxes = lane_scene_.has_boxes_alone();
+  pool_.one_box = pool_.boxes && lane_scene_.has_one_shape();
   for (std::uint32_t slot = LanePool::kPhotons; slot-- > 0;) free_.push_back(slot);
 }
 
 void SurfaceLanes::enter(std::uint32_t name, const source::Photon& photon, const core::Rng& rng) {
+  if (!key_) {
+    key_ = rng.key();
+    pool_.keys = core::PhiloxKeys<std::uint64_t>(rng.key()[0], rng.key()[1]);
+  }
   const std::uint32_t slot = free_.back();
   free_.pop_back();
   names_[slot] = name;
@@ -122,7 +128,6 @@ void SurfaceLanes::give_numbers(const core::Rng& rng, LanePhoton& to) {
   to.drawn = rng.position();
   to.next_block = rng.counter()[0];
   for (std::size_t i = 0; i < 3; ++i) to.counter[i] = rng.counter()[i + 1];
-  for (std::size_t i = 0; i < 2; ++i) to.key[i] = rng.key()[i];
   for (std::size_t block = (core::Rng::kDrawn - rng.ahead().size()) / 4; block < 2; ++block) {
     const std::size_t first = 4 * (to.next_block + block - 2) % LanePhoton::kNumbers;
     for (std::size_t i = 0; i < 4; ++i) to.numbers[first + i] = rng.drawn()[4 * block + i];

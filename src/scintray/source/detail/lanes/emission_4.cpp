@@ -2,6 +2,8 @@
 
 namespace scintray::source {
 
-EmissionKernels emission_kernels_4() { return EmissionKernelsOf<core::LaneRealPair<xsimd::avx2>>::all(); }
+EmissionKernels emission_kernels_4() {
+  return EmissionKernelsOf<core::LaneRealPair<xsimd::avx2>, EmissionDraws::one_by_one>::all();
+}
 
 }  // namespace scintray::source

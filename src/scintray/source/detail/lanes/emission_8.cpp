@@ -2,6 +2,8 @@
 
 namespace scintray::source {
 
-EmissionKernels emission_kernels_8() { return EmissionKernelsOf<core::LaneReal<xsimd::avx512f>>::all(); }
+EmissionKernels emission_kernels_8() {
+  return EmissionKernelsOf<core::LaneReal<xsimd::avx512f>, EmissionDraws::in_lanes>::all();
+}
 
 }  // namespace scintray::source

@@ -9,19 +9,25 @@
 namespace scintray::source {
 namespace {
 
+/// Method of drawing random numbers: blocks in lanes, or with scalar instructions, which are faster where
+/// vectors are short, as their products have 32 bits.
+enum class EmissionDraws { in_lanes, one_by_one };
+
 /// @tparam Real  numbers of kEmitted lanes
-template <typename Real>
+template <typename Real, EmissionDraws kDraws>
 struct EmissionKernelsOf {
   using Bits = core::BitsOf<Real>;
   using Vector = core::Triple<Real>;
   static_assert(Real::kWidth == kEmitted);
 
   [[gnu::flatten]] static void draw(StreamLanes& streams) {
+    if constexpr (kDraws == EmissionDraws::one_by_one) return draw_one_by_one(streams);
     const Bits first = Bits::load(streams.counter[0]);
     const auto block = [&](const Bits& number) {
-      return core::PhiloxBlock<Bits>({number, Bits::load(streams.counter[1]), Bits::load(streams.counter[2]),
-                                      Bits::load(streams.counter[3])},
-                                     {Bits::load(streams.key[0]), Bits::load(streams.key[1])});
+      return core::PhiloxBlock<Bits>(
+          {number, Bits::load(streams.counter[1]), Bits::load(streams.counter[2]),
+           Bits::load(streams.counter[3])},
+          core::PhiloxKeys<Bits>(Bits::load(streams.key[0]), Bits::load(streams.key[1])));
     };
     std::uint64_t* second[kEmitted];
     for (std::size_t lane = 0; lane < kEmitted; ++lane) second[lane] = streams.numbers[lane] + 4;
@@ -52,6 +58,20 @@ struct EmissionKernelsOf {
   static EmissionKernels all() { return {draw, emit, draw_depths}; }
 
  private:
+  static void draw_one_by_one(StreamLanes& streams) {
+    core::PhiloxKeys<std::uint64_t> keys(streams.key[0][0], streams.key[1][0]);
+    for (std::size_t lane = 0; lane < kEmitted; ++lane) {
+      if (streams.key[0][lane] != keys.of[0][0] || streams.key[1][lane] != keys.of[0][1])
+        keys = core::PhiloxKeys<std::uint64_t>(streams.key[0][lane], streams.key[1][lane]);
+      for (std::uint64_t number = 0; number < 2; ++number) {
+        const core::PhiloxBlock<std::uint64_t> block(
+            {streams.counter[0][lane] + number, streams.counter[1][lane], streams.counter[2][lane],
+             streams.counter[3][lane]},
+            keys);
+        for (std::size_t i = 0; i < 4; ++i) streams.numbers[lane][4 * number + i] = block.words[i];
+      }
+    }
+  }
   static void store(const Vector& from, double (&to)[3][kEmitted]) {
     from.x.store(to[0]), from.y.store(to[1]), from.z.store(to[2]);
   }

@@ -25,26 +25,29 @@ class LaneBodyWalls {
 
  public:
   using Number = Real;
+  static constexpr bool kEncloses = false;
   using Region = LaneBody;
   /// The nearest face so far.
   struct Ahead {
     Real distance_mm{std::numeric_limits<double>::infinity()}, plane{0.0};
     Vector normal{Real(0.0), Real(0.0), Real(0.0)};  ///< of a plane
   };
-  /// @param any  a photon, whose numbers per face serve lanes without one
-  LaneBodyWalls(const LaneBody& body, const LaneWork& any) : body_(body) {
-    for (const double*& least_sin2 : least_sin2_) least_sin2 = any.least_sin2;
-  }
+  explicit LaneBodyWalls(const LaneBody& body) : body_(body) {}
 
-  void set(std::size_t lane, const Mask& here, const LaneWork& photon) {
-    left_ = select(here, Real(photon.left), left_);
+  void set(std::size_t lane, const LaneWork& photon) {
+    left_.of[lane] = photon.left;
     least_sin2_[lane] = photon.least_sin2;
   }
-  /// Stores what get() needs.
-  void store() { stored_left_.store(left_); }
-  void get(std::size_t lane, LaneWork& photon) const { photon.left = stored_left_.of[lane]; }
-  void leave(const Ahead& ahead) { left_ = ahead.plane; }
-  void leave(const Ahead& ahead, const Mask& stays) { left_ = select(stays, left_, ahead.plane); }
+  static Real face(const Ahead& ahead) { return ahead.plane; }
+  /// optics::reflect.
+  static optics::LightRay<Real> reflected(const Ahead&, const LaneArrival<Real>& at,
+                                          const optics::LightRay<Real>& light) {
+    return {core::mirrored(light.direction, at.normal, at.cosine),
+            -core::mirrored(light.polarisation, at.normal)};
+  }
+  void get(std::size_t lane, LaneWork& photon) const { photon.left = left_.of[lane]; }
+  void leave(const Ahead& ahead) { left_.store(ahead.plane); }
+  void leave(const Ahead& ahead, const Mask& stays) { left_.store(select(stays, left_.load(), ahead.plane)); }
 
   Ahead nearest(const Vector& local, const Vector& direction) const {
     const Real zero(0.0);
@@ -64,7 +67,7 @@ class LaneBodyWalls {
     for (std::uint32_t i = body_.planes; i < body_.count; ++i) {
       mesh::QuadricOnRayOf<Real> on_ray = quadric(body_.faces[i]).on_ray(local, direction);
       const Real number(static_cast<double>(i));
-      on_ray.c = select(left_ == number, zero, on_ray.c);
+      on_ray.c = select(left_.load() == number, zero, on_ray.c);
       const Real distance = mesh::distance_out(on_ray);
       take(distance < ahead.distance_mm, distance, number);
     }
@@ -82,7 +85,7 @@ class LaneBodyWalls {
     faces.store(ahead.plane);
     const double* least_sin2[Real::kWidth];
     for (std::size_t lane = 0; lane < Real::kWidth; ++lane)
-      least_sin2[lane] = least_sin2_[lane] + static_cast<std::size_t>(faces.of[lane]);
+      least_sin2[lane] = least_sin2_[lane] + static_cast<std::uint32_t>(faces.of[lane]);
     const Mask flat = ahead.plane < Real(static_cast<double>(body_.planes));
     const Wall wall = body_.count - body_.planes == 1 ? only_wall() : walls_at(faces);
     const mesh::FootOf<Real> round = foot(wall, there - centre);
@@ -111,7 +114,7 @@ class LaneBodyWalls {
   Wall walls_at(const LaneNumbers<Real>& faces) const {
     const double *first[Real::kWidth], *second[Real::kWidth], *third[Real::kWidth];
     for (std::size_t lane = 0; lane < Real::kWidth; ++lane) {
-      const LaneBody::Face& face = body_.faces[static_cast<std::size_t>(faces.of[lane])];
+      const LaneBody::Face& face = body_.faces[static_cast<std::uint32_t>(faces.of[lane])];
       first[lane] = face.origin, second[lane] = face.axis, third[lane] = &face.radius2;
     }
     LaneFours<Real> a, b, c;
@@ -129,8 +132,7 @@ class LaneBodyWalls {
   static Vector vector_of(const double (&of)[3]) { return {Real(of[0]), Real(of[1]), Real(of[2])}; }
 
   const LaneBody& body_;
-  Real left_{kNoFace};
-  LaneNumbers<Real> stored_left_;
+  LaneNumbers<Real> left_;
   const double* least_sin2_[Real::kWidth];
 };
 
@@ -140,9 +142,10 @@ template <typename Real>
                                                      LaneWork* photons, std::size_t count) {
   using mesh::QuadricShape;
   if (body.cylinders)
-    LanePropagation<LaneBodyWalls<Real, QuadricShape::cylinder>>(body, limits, photons, count).run();
+    LanePropagation<LaneSet<LaneBodyWalls<Real, QuadricShape::cylinder>>, 1>::run(body, limits, photons,
+                                                                                  count);
   else
-    LanePropagation<LaneBodyWalls<Real, QuadricShape::any>>(body, limits, photons, count).run();
+    LanePropagation<LaneSet<LaneBodyWalls<Real, QuadricShape::any>>, 1>::run(body, limits, photons, count);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #pragma once
 /// The walls of a region that is bounded by planes, for LanePropagation.
 
+#include "scintray/transport/detail/lanes/lane_box_set.hpp"
 #include "scintray/transport/detail/lanes/lane_kernel.hpp"
 #include "scintray/transport/detail/lanes/lane_kernel_of.hpp"
 #include "scintray/transport/detail/lanes/lane_numbers.hpp"
@@ -22,6 +23,7 @@ class LaneFlatWalls {
 
  public:
   using Number = Real;
+  static constexpr bool kEncloses = true;
   using Region = LanePlanes;
   /// The nearest plane; where there are few with its numbers.
   struct Ahead : LaneAhead<Real> {
@@ -29,22 +31,22 @@ class LaneFlatWalls {
     Real least_sin2{0.0};
   };
 
-  /// @param any  a photon, whose numbers per face serve lanes without one
-  LaneFlatWalls(const LanePlanes& planes, const LaneWork& any) : planes_(planes) {
-    for (const double*& of_lane : least_sin2_) of_lane = any.least_sin2;
-    if constexpr (kFew)
-      for (std::uint32_t i = 0; i < planes.count; ++i) few_least_sin2_[i] = Real(any.least_sin2[i]);
-  }
+  explicit LaneFlatWalls(const LanePlanes& planes) : planes_(planes) {}
 
-  void set(std::size_t lane, const Mask& here, const LaneWork& photon) {
+  void set(std::size_t lane, const LaneWork& photon) {
     if constexpr (kFew)
-      for (std::uint32_t i = 0; i < planes_.count; ++i)
-        few_least_sin2_[i] = select(here, Real(photon.least_sin2[i]), few_least_sin2_[i]);
+      for (std::uint32_t i = 0; i < planes_.count; ++i) few_least_sin2_[i].of[lane] = photon.least_sin2[i];
     else
       least_sin2_[lane] = photon.least_sin2;
   }
   // Planes have no state in a lane.
-  void store() {}
+  static Real face(const Ahead& ahead) { return ahead.plane; }
+  /// optics::reflect.
+  static optics::LightRay<Real> reflected(const Ahead&, const LaneArrival<Real>& at,
+                                          const optics::LightRay<Real>& light) {
+    return {core::mirrored(light.direction, at.normal, at.cosine),
+            -core::mirrored(light.polarisation, at.normal)};
+  }
   void get(std::size_t, LaneWork&) const {}
   void leave(const Ahead&) {}
   void leave(const Ahead&, const Mask&) {}
@@ -63,7 +65,7 @@ class LaneFlatWalls {
     faces.store(ahead.plane);
     const double *planes[Real::kWidth], *least_sin2[Real::kWidth];
     for (std::size_t lane = 0; lane < Real::kWidth; ++lane) {
-      const auto face = static_cast<std::size_t>(faces.of[lane]);
+      const auto face = static_cast<std::uint32_t>(faces.of[lane]);
       planes[lane] = planes_.plane(face);
       least_sin2[lane] = least_sin2_[lane] + face;
     }
@@ -87,26 +89,27 @@ class LaneFlatWalls {
     if constexpr (kFew) {
       ahead.normal = select(taken.closer, select(taken.first, normal, vector_of(q)), ahead.normal);
       const Real least_sin2 =
-          select(taken.first, few_least_sin2_[planes.first], few_least_sin2_[planes.second]);
+          select(taken.first, few_least_sin2_[planes.first].load(), few_least_sin2_[planes.second].load());
       ahead.least_sin2 = select(taken.closer, least_sin2, ahead.least_sin2);
     }
   }
   static Vector vector_of(const double* plane) { return {Real(plane[0]), Real(plane[1]), Real(plane[2])}; }
 
   const LanePlanes& planes_;
-  const double* least_sin2_[Real::kWidth];      ///< of each lane, per face
-  Real few_least_sin2_[kFew ? kFewPlanes : 1];  ///< of each face
+  const double* least_sin2_[Real::kWidth];                   ///< of each lane, per face
+  LaneNumbers<Real> few_least_sin2_[kFew ? kFewPlanes : 1];  ///< of each face
 };
 
 /// Inlined, so that a profile has the time under the name of the kernel, which is known outside its file.
-template <typename Real>
+template <typename Real, int kSets>
 [[gnu::always_inline]] inline void propagate_between_planes(const LanePlanes& planes,
                                                             const LaneLimits& limits, LaneWork* photons,
                                                             std::size_t count) {
+  if (planes.box) return LanePropagation<LaneBoxSet<Real>, kSets>::run(planes, limits, photons, count);
   if constexpr (Real::kWidth >= 8)
     if (planes.count <= kFewPlanes)
-      return LanePropagation<LaneFlatWalls<Real, true>>(planes, limits, photons, count).run();
-  LanePropagation<LaneFlatWalls<Real, false>>(planes, limits, photons, count).run();
+      return LanePropagation<LaneSet<LaneFlatWalls<Real, true>>, 1>::run(planes, limits, photons, count);
+  LanePropagation<LaneSet<LaneFlatWalls<Real, false>>, 1>::run(planes, limits, photons, count);
 }
 
 }  // namespace

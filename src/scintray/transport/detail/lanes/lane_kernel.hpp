@@ -28,6 +28,7 @@ struct LanePlanes {
   std::size_t stride = 4;  ///< from one plane to the next
   std::uint32_t count = 0;
   std::uint32_t opposite = 0;  ///< of these, the first: two by two with opposite normals
+  bool box = false;            ///< as scene::Boundary::is_box
 
   /// Always inlined, as no function of this header may be left to the linker.
   [[gnu::always_inline]] const double* plane(std::size_t i) const { return first + i * stride; }

@@ -20,6 +20,9 @@ struct LaneNumbers3 {
   LaneNumbers<Real> x, y, z;
   core::Triple<Real> load() const { return {x.load(), y.load(), z.load()}; }
   void store(const core::Triple<Real>& value) { x.store(value.x), y.store(value.y), z.store(value.z); }
+  void set(std::size_t lane, const double* from) {
+    x.of[lane] = from[0], y.of[lane] = from[1], z.of[lane] = from[2];
+  }
   void get(std::size_t lane, double* to) const { to[0] = x.of[lane], to[1] = y.of[lane], to[2] = z.of[lane]; }
 };
 

@@ -6,6 +6,7 @@
 /// lanes take part; then they return to the pool. Photons that are not in a stage are masked. Time is
 /// proportional to instructions, so the rejection sampling of facets is repeated on its own.
 
+#include "scintray/transport/detail/lanes/lane_box.hpp"
 #include "scintray/transport/detail/lanes/lane_planes.hpp"
 #include "scintray/transport/detail/lanes/lane_surfaces.hpp"
 #include "scintray/transport/detail/propagation_laws.hpp"
@@ -44,10 +45,11 @@ class LanePasses : LaneSurfaces<Real, kDraws, kOneWavelength> {
   using Surfaces::segments_;
   using Surfaces::store;
   using Surfaces::take;
-  using Surfaces::take_numbers;
   using Surfaces::take_places;
   using Surfaces::time_ns_;
+  using typename Surfaces::Bits;
   using typename Surfaces::Changed;
+  using typename Surfaces::Light;
   using typename Surfaces::Mask;
   using typename Surfaces::Now;
   using typename Surfaces::Vector;
@@ -113,7 +115,6 @@ class LanePasses : LaneSurfaces<Real, kDraws, kOneWavelength> {
         if (number_of_lanes(there) < needed) break;
         changed.surface = true;
         if (!changed.places) load_faces(now);
-        take_numbers();
       }
       if (!interact(now, is_time)) break;
       if (const Mask here = now.state == Real(lane_state::kThrough); any(here)) {
@@ -201,13 +202,54 @@ class LanePasses : LaneSurfaces<Real, kDraws, kOneWavelength> {
     return nearest;
   }
 
+  /// A segment to a face.
+  struct Hop {
+    Mask known;  ///< its face is
+    Real distance_mm, cosine;
+  };
+  /// The boxes around photons in regions that are boxes.
+  LaneBox<Real> boxes() const {
+    if (pool_.one_box) {
+      const LaneBoxPlaces& box = *photon_[0]->region.box;
+      return {{Real(box.first_mm[0]), Real(box.second_mm[0]), Real(box.first_mm[1]), Real(box.second_mm[1]),
+               Real(box.first_mm[2]), Real(box.second_mm[2])}};
+    }
+    const double* places[kWidth];
+    for (std::size_t lane = 0; lane < kWidth; ++lane) places[lane] = photon_[lane]->region.box->first_mm;
+    const LaneFours<Real> first = row_of(places, 0), second = row_of(places, 1);
+    return {{first.of[0], second.of[0], first.of[1], second.of[1], first.of[2], second.of[2]}};
+  }
+
   /// To the next plane, and through a total reflection there.
   void propagate(Now& now, const Mask& here) {
-    const LaneAhead<Real> ahead = nearest_plane(load(position_) - load(centre_), now.light.direction);
-    const Real zero(0.0);
-    const Real distance = select(ahead.distance_mm < zero, zero, ahead.distance_mm);
+    const Vector local = load(position_) - load(centre_);
+    if (pool_.boxes) {
+      const Vector& direction = now.light.direction;
+      const Real one(1.0);
+      const LaneBoxAhead<Real> ahead(
+          boxes(), local, direction,
+          {one / magnitude(direction.x), one / magnitude(direction.y), one / magnitude(direction.z)});
+      const Real along = ahead.along(direction);
+      store(plane_, select(here, ahead.face(along), load(plane_)));
+      load_faces(now);
+      const Hop hop{here, ahead.distance_mm, magnitude(along)};
+      move<false>(now, here, hop, [&ahead](const Mask& lanes, const Light& light) {
+        const LaneSigns<Real> signs = ahead.signs();
+        const Bits there = bits_of(where(lanes, Real(-0.0)));
+        const LaneSigns<Real> turned{signs.x & there, signs.y & there, signs.z & there};
+        return Light{
+            turned.of(light.direction),
+            LaneSigns<Real>{turned.x ^ there, turned.y ^ there, turned.z ^ there}.of(light.polarisation)};
+      });
+      return;
+    }
+    const LaneAhead<Real> ahead = nearest_plane(local, now.light.direction);
     store(plane_, select(here, ahead.plane, load(plane_)));
-    move<false>(now, here, here, distance);
+    load_faces(now);
+    const Hop hop{here, ahead.distance_mm, dot(now.light.direction, now.normal)};
+    move<false>(now, here, hop, [&now](const Mask& lanes, const Light& light) {
+      return optics::reflected_where(lanes, light, now.normal);
+    });
   }
 
   /// Across the first gap in front of the face to the face beyond, as scene::Accelerator::exit_across_gap().
@@ -217,7 +259,7 @@ class LanePasses : LaneSurfaces<Real, kDraws, kOneWavelength> {
     const unsigned lanes = lanes_of(here);
     const double* gaps[kWidth];
     for (std::size_t lane = 0; lane < kWidth; ++lane) {
-      const LaneFace& face = photon_[lane]->region.faces[static_cast<std::size_t>(plane_[lane])];
+      const LaneFace& face = photon_[lane]->region.faces[static_cast<std::uint32_t>(plane_[lane])];
       gaps[lane] = one_of(lanes >> lane & 1, face.gap, &kNone)->normal;
     }
     const LaneFours<Real> plane = row_of(gaps, 0), first = row_of(gaps, 1), second = row_of(gaps, 2),
@@ -238,18 +280,19 @@ class LanePasses : LaneSurfaces<Real, kDraws, kOneWavelength> {
     const Mask found = here & (cosine > zero) & contains(at_x, at_y) &
                        contains(at_x + distance * dot(x, direction), at_y + distance * dot(y, direction));
     store(plane_, select(found, last.of[2], load(plane_)));
-    move<true>(now, here, found, where(found, distance));
+    load_faces(now);
+    move<true>(now, here, {found, where(found, distance), dot(direction, now.normal)},
+               [](const Mask&, const Light& light) { return light; });
   }
 
   /// Along a segment to a face, and in a region bounded by planes through a total reflection there.
   /// @param known  its face is
-  template <bool kAcross>
-  void move(Now& now, const Mask& here, const Mask& known, const Real& distance) {
-    load_faces(now);
-    const Real zero(0.0);
+  template <bool kAcross, typename Reflect>
+  void move(Now& now, const Mask& here, const Hop& hop, const Reflect& reflect) {
+    const Mask& known = hop.known;
+    const Real &distance = hop.distance_mm, &cosine = hop.cosine;
     const Vector position = load(position_), direction = now.light.direction;
     const Real depth = load(attenuation_per_mm_) * distance, depth_left = load(depth_left_);
-    const Real cosine = dot(direction, now.normal);
     const Mask total = totally_reflected(cosine, now.least_sin2);
     const Mask bulk = known & (depth > depth_left);
     Mask unclear = (!known) | (now.kind == Real(lane_state::kUnclear));
@@ -270,7 +313,7 @@ class LanePasses : LaneSurfaces<Real, kDraws, kOneWavelength> {
     if constexpr (kAcross) {
       now.state = select(here, select(moves, now.kind, stays), now.state);
     } else {
-      now.light = reflected_where(moves & total, now.light, now.normal);
+      now.light = reflect(moves & total, now.light);
       const Mask within =
           (interactions < Real(pool_.most_interactions)) & (there_time <= Real(pool_.most_time_ns));
       const Real after_total = select(within, Real(lane_state::kPropagate), Real(lane_state::kCut));

@@ -65,7 +65,7 @@ class LanePhotons {
   };
 
   /// Takes photons of a state out of the pool into the lanes, as many as there are lanes: all but their
-  /// places and random numbers.
+  /// places.
   void take(std::size_t state, Moving& moving) {
     std::uint64_t these = pool_.in_state[state];
     const int count = __builtin_popcountll(these);
@@ -78,12 +78,13 @@ class LanePhotons {
     pool_.in_state[state] = these;
     const Mask taken = Mask::of(count < static_cast<int>(kWidth) ? (1U << count) - 1 : (1U << kWidth) - 1);
     moving.state = select(taken, Real(static_cast<double>(state)), Real(lane_state::kEmpty));
-    const Row direction = row(offsetof(LanePhoton, direction)), optics = row(offsetof(LanePhoton, index));
+    const Row direction = row(offsetof(LanePhoton, direction)), optics = row(offsetof(LanePhoton, index)),
+              stream = row(offsetof(LanePhoton, side));
     const Row polarisation = row(offsetof(LanePhoton, polarisation)),
               counts = row(offsetof(LanePhoton, interactions));
     moving.light = {{direction.of[0], direction.of[1], direction.of[2]},
                     {polarisation.of[0], polarisation.of[1], polarisation.of[2]}};
-    moving.side = optics.of[2];
+    moving.side = stream.of[0];
     store(time_ns_, direction.of[3]);
     store(depth_left_, polarisation.of[3]);
     store(interactions_, counts.of[0]);
@@ -92,7 +93,9 @@ class LanePhotons {
     store(cos_before_, counts.of[3]);
     store(index_, optics.of[0]);
     store(group_index_, optics.of[1]);
-    store(next_, optics.of[3]);
+    store(next_, stream.of[1]);
+    store(drawn_, bits_of(stream.of[2]));
+    store(next_block_, bits_of(stream.of[3]));
   }
   void take_places() {
     const Row position = row(offsetof(LanePhoton, position)), centre = row(offsetof(LanePhoton, centre));
@@ -101,17 +104,10 @@ class LanePhotons {
     store(centre_, {centre.of[0], centre.of[1], centre.of[2]});
     store(attenuation_per_mm_, centre.of[3]);
   }
-  void take_numbers() {
-    const Row stream = row(offsetof(LanePhoton, drawn));
-    store(drawn_, bits_of(stream.of[0]));
-    store(next_block_, bits_of(stream.of[1]));
-    store(key_[0], bits_of(stream.of[2]));
-    store(key_[1], bits_of(stream.of[3]));
-  }
   /// What of the photons in the lanes may have changed beside Moving::light and time.
   struct Changed {
     bool places = false;   ///< take_places() was called
-    bool surface = false;  ///< take_numbers() was
+    bool surface = false;  ///< some photon was at a surface
     bool region = false;   ///< some photon is in another than before
   };
   /// Puts the photons back into the pool.
@@ -129,12 +125,11 @@ class LanePhotons {
     if (changed.region) {
       const Vector centre = load(centre_);
       put_row(offsetof(LanePhoton, centre), {{centre.x, centre.y, centre.z, load(attenuation_per_mm_)}});
+      put_row(offsetof(LanePhoton, index), {{load(index_), load(group_index_), Real(0.0), Real(0.0)}});
     }
-    if (changed.surface) {
-      put_row(offsetof(LanePhoton, index), {{load(index_), load(group_index_), moving.side, load(next_)}});
-      put_row(offsetof(LanePhoton, drawn), {{number_of(load(drawn_)), number_of(load(next_block_)),
-                                             number_of(load(key_[0])), number_of(load(key_[1]))}});
-    }
+    if (changed.surface)
+      put_row(offsetof(LanePhoton, side),
+              {{moving.side, load(next_), number_of(load(drawn_)), number_of(load(next_block_))}});
     alignas(64) Counts states;
     store(states, bits_of(moving.state + Real(0x1.0p52)));
     for (std::size_t lane = 0; lane < kWidth; ++lane)
@@ -149,7 +144,7 @@ class LanePhotons {
     if constexpr (kDraws == LaneDraws::in_lanes)
       draw_in_lanes(ready <= Real(static_cast<double>(LanePhoton::kNumbers - 4)));
     else
-      draw_one_by_one(photon_, next_block_, lanes_of(lack));
+      draw_one_by_one(pool_.keys, photon_, next_block_, lanes_of(lack));
   }
   /// Four random numbers of each photon.
   struct Random {
@@ -182,7 +177,7 @@ class LanePhotons {
 
   void load_faces(Now& now) const {
     for (std::size_t lane = 0; lane < kWidth; ++lane) {
-      const LaneFace& face = photon_[lane]->region.faces[static_cast<std::size_t>(plane_[lane])];
+      const LaneFace& face = photon_[lane]->region.faces[static_cast<std::uint32_t>(plane_[lane])];
       now.face[lane] = face.normal;
       if constexpr (!kOneWavelength) now.optics[lane] = photon_[lane]->optics[face.optics].of;
     }
@@ -254,14 +249,15 @@ class LanePhotons {
 
   /// Not inlined, so that it has the registers for itself.
   /// @param lanes  a bit for each
-  [[gnu::noinline]] static void draw_one_by_one(LanePhoton* const* photons, std::uint64_t* next_block,
+  [[gnu::noinline]] static void draw_one_by_one(const core::PhiloxKeys<std::uint64_t>& keys,
+                                                LanePhoton* const* photons, std::uint64_t* next_block,
                                                 unsigned lanes) {
     for (; lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<std::size_t>(__builtin_ctz(lanes));
       LanePhoton& photon = *photons[lane];
       const std::uint64_t number = next_block[lane]++;
       const core::PhiloxBlock<std::uint64_t> block(
-          {number, photon.counter[0], photon.counter[1], photon.counter[2]}, {photon.key[0], photon.key[1]});
+          {number, photon.counter[0], photon.counter[1], photon.counter[2]}, keys);
       const std::size_t first = number * 4 % LanePhoton::kNumbers;
       const std::size_t again = first + (first > 0 ? 0 : LanePhoton::kNumbers);
       for (std::size_t i = 0; i < 4; ++i)
@@ -273,8 +269,7 @@ class LanePhotons {
     const Bits blocks = load(next_block_);
     const Row counter = row(offsetof(LanePhoton, counter));
     const core::PhiloxBlock<Bits> block(
-        {blocks, bits_of(counter.of[0]), bits_of(counter.of[1]), bits_of(counter.of[2])},
-        {load(key_[0]), load(key_[1])});
+        {blocks, bits_of(counter.of[0]), bits_of(counter.of[1]), bits_of(counter.of[2])}, pool_.keys);
     store(next_block_, blocks + whole(one_if(room)));
     alignas(64) std::uint64_t number[kWidth];
     blocks.store(number);
@@ -292,7 +287,7 @@ class LanePhotons {
 
   std::uint32_t place_[kWidth];  ///< in the pool
   alignas(64) Counts bit_;       ///< for that
-  alignas(64) Counts drawn_, next_block_, key_[2];
+  alignas(64) Counts drawn_, next_block_;
 };
 
 }  // namespace

@@ -31,9 +31,10 @@ struct LaneAhead {
                        const core::Triple<Real>& from, const core::Triple<Real>& direction, double first) {
     const Real signed_along = dot(normal, direction), height = dot(normal, from);
     const auto along_first = signed_along > Real(0.0);
-    const Real along = magnitude(signed_along);
-    const Real distance = select(along_first, first_mm - height, second_mm + height) / along;
-    const auto closer = (along > Real(0.0)) & (distance < distance_mm);
+    const Real along = magnitude(signed_along), one(1.0), zero(0.0);
+    const Real distance =
+        greatest(select(along_first, first_mm - height, second_mm + height), zero) * (one / along);
+    const auto closer = distance < distance_mm;
     distance_mm = select(closer, distance, distance_mm);
     plane = select(closer, select(along_first, Real(first), Real(first + 1.0)), plane);
     cosine = select(closer, along, cosine);

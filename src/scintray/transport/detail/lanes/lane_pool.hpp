@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "scintray/core/philox_laws.hpp"
 #include "scintray/optics/table_laws.hpp"
 #include "scintray/transport/detail/lanes/lane_kernel.hpp"
 
@@ -48,6 +49,13 @@ struct PlanePair {
   double padding[3] = {0, 0, 0};
 };
 static_assert(sizeof(PlanePair) == 64);
+
+/// A box along the axes of its frame, as scene::Boundary::is_box: of the faces across x, y and z with the
+/// normal along the axis, and of those opposite, the product of the normal and a point (mm). Four numbers are
+/// loaded at once.
+struct alignas(32) LaneBoxPlaces {
+  double first_mm[4], second_mm[4];
+};
 
 /// A surface table between two of its wavelengths.
 struct LaneTable {
@@ -120,12 +128,13 @@ static_assert(sizeof(LaneFace) == 192);
 
 /// A region: bounded by planes, or one in which photons cross gaps.
 struct LaneRegion {
-  const PlanePair* planes = nullptr;  ///< where photons cross gaps any
-  const LaneFace* faces = nullptr;    ///< two per PlanePair; where photons cross gaps those at gaps
-  std::uint32_t count = 0;            ///< of planes
-  std::uint32_t has_gaps = 0;         ///< 1: photons cross gaps
-  std::uint32_t number = 0;           ///< scene::Scene::regions
-  std::uint32_t medium = 0;           ///< place of its LaneMedium in LanePhoton::optics
+  const PlanePair* planes = nullptr;   ///< where photons cross gaps any
+  const LaneBoxPlaces* box = nullptr;  ///< the same, where LanePool::boxes
+  const LaneFace* faces = nullptr;     ///< two per PlanePair; where photons cross gaps those at gaps
+  std::uint32_t count = 0;             ///< of planes
+  std::uint32_t has_gaps = 0;          ///< 1: photons cross gaps
+  std::uint32_t number = 0;            ///< scene::Scene::regions
+  std::uint32_t medium = 0;            ///< place of its LaneMedium in LanePhoton::optics
 };
 
 /// A photon of the pool. Rows of four numbers are loaded and stored at once.
@@ -142,11 +151,11 @@ struct alignas(64) LanePhoton {
   double cos_before;              ///< |cosine| to the normal of the plane, on arrival
   double centre[3];               ///< origin of the region's frame
   double attenuation_per_mm;      ///< of the region's medium, as the indices
-  double index, group_index;
-  double side;                       ///< at a microsurface: 1 in the photon's region, -1 beyond
-  double next;                       ///< state after kPolarise
-  std::uint64_t drawn, next_block;   ///< numbers used, and Philox's first counter: the next block to be drawn
-  std::uint64_t key[2], counter[3];  ///< Philox's key, and its other counters
+  double index, group_index, padding[2];
+  double side;                      ///< at a microsurface: 1 in the photon's region, -1 beyond
+  double next;                      ///< state after kPolarise
+  std::uint64_t drawn, next_block;  ///< numbers used, and Philox's first counter: the next block to be drawn
+  std::uint64_t counter[3];         ///< Philox's other counters
   const LaneRecord* optics;
   std::uint64_t numbers[kNumbers + 4];
   LaneRegion region;
@@ -160,7 +169,11 @@ struct LanePool {
   LanePhoton photons[kPhotons + 1];            ///< the last one stands for none, in lanes that have no photon
   std::uint64_t in_state[lane_state::kCount];  ///< a bit for each photon
 
+  core::PhiloxKeys<std::uint64_t> keys;  ///< of the random numbers of all photons
+
   double most_interactions, most_time_ns;  ///< limits as of PropagationLimits
+  bool boxes;                              ///< all regions bounded by planes are as scene::Boundary::is_box
+  bool one_box;                            ///< and all alike
   bool has_gaps;                           ///< some region has
   bool has_neighbours;                     ///< some face has a region behind it
   bool one_wavelength;                     ///< all photons have it

@@ -5,7 +5,7 @@ namespace scintray::transport {
 
 void propagate_lanes_2(const LanePlanes& planes, const LaneLimits& limits, LaneWork* photons,
                        std::size_t count) {
-  propagate_between_planes<core::LaneReal<xsimd::sse2>>(planes, limits, photons, count);
+  propagate_between_planes<core::LaneReal<xsimd::sse2>, 2>(planes, limits, photons, count);
 }
 
 void propagate_lanes_in_body_2(const LaneBody& body, const LaneLimits& limits, LaneWork* photons,

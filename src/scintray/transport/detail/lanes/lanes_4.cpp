@@ -6,7 +6,7 @@ namespace scintray::transport {
 
 void propagate_lanes_4(const LanePlanes& planes, const LaneLimits& limits, LaneWork* photons,
                        std::size_t count) {
-  propagate_between_planes<core::LaneReal<xsimd::avx2>>(planes, limits, photons, count);
+  propagate_between_planes<core::LaneReal<xsimd::avx2>, 2>(planes, limits, photons, count);
 }
 
 void propagate_lanes_in_body_4(const LaneBody& body, const LaneLimits& limits, LaneWork* photons,

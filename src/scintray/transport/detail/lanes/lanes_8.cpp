@@ -6,7 +6,7 @@ namespace scintray::transport {
 
 void propagate_lanes_8(const LanePlanes& planes, const LaneLimits& limits, LaneWork* photons,
                        std::size_t count) {
-  propagate_between_planes<core::LaneReal<xsimd::avx512f>>(planes, limits, photons, count);
+  propagate_between_planes<core::LaneReal<xsimd::avx512f>, 2>(planes, limits, photons, count);
 }
 
 void propagate_lanes_in_body_8(const LaneBody& body, const LaneLimits& limits, LaneWork* photons,
