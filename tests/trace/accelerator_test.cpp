@@ -149,6 +149,34 @@ TEST_CASE("Planes are refused where the region is not convex, with a hint") {
                        doctest::Contains("use accelerator = \"auto\""), InputError);
 }
 
+TEST_CASE("The planes of a box along the axes are in the order of the axes; other bodies are none") {
+  const auto boundary_of = [](const TriMesh& mesh, double turned = 0.0) {
+    auto triangles = triangles_of(mesh);
+    const Eigen::AngleAxisd turn(turned, Vec3(1, 2, 3).normalized());
+    for (BoundaryTriangle& triangle : triangles)
+      for (Vec3& corner : triangle) corner = turn * corner;
+    const std::vector<std::uint32_t> labels(triangles.size(), 0);
+    return make_boundary(triangles, labels, true, AcceleratorKind::planes, {});
+  };
+  const Boundary box = boundary_of(make_box({-1, -2, -3}, {4, 5, 6}));
+  REQUIRE(box.is_box);
+  REQUIRE(box.planes.size() == 6);
+  CHECK(box.opposite_planes == 6);
+  const std::array<double, 6> offsets = {4, 1, 5, 2, 6, 3};
+  for (int i = 0; i < 6; ++i) {
+    CAPTURE(i);
+    const BoundingPlane& plane = box.planes[static_cast<std::size_t>(i)];
+    CHECK(plane.normal.vec() == Vec3((i % 2 == 0 ? 1.0 : -1.0) * Vec3::Unit(i / 2)));
+    CHECK(plane.offset == offsets[static_cast<std::size_t>(i)]);
+    CHECK(box.triangle_planes[plane.first].normal == plane.normal);
+  }
+  CHECK_FALSE(boundary_of(make_box({-1, -2, -3}, {4, 5, 6}), 0.1).is_box);
+  CHECK_FALSE(boundary_of(make_cylinder(2.0, 5.0, 6)).is_box);
+  CHECK_FALSE(boundary_of(prism_over({{0, 0}, {2, 0}, {2, 1}, {0, 3}}, 1.0)).is_box);  // one face is inclined
+  // A box with a corner cut off has seven planes.
+  CHECK_FALSE(boundary_of(prism_over({{0, 0}, {2, 0}, {2, 1}, {1, 2}, {0, 2}}, 1.0)).is_box);
+}
+
 TEST_CASE("A point is inside a body or not, by planes and by rays alike") {
   const auto triangles = triangles_of(make_cylinder(2.0, 5.0, 24));
   const std::vector<std::uint32_t> labels(triangles.size(), 0);

@@ -86,9 +86,12 @@ void check_same_start(const Photon& a, const Photon& b) {
   CHECK(a.interactions == b.interactions);
 }
 
-/// Emits the photons of an event in groups of all sizes, in places that other photons had before.
+/// Emits the photons of an event in groups of all sizes, in places that other photons had before, and with
+/// streams of two seeds.
 void check_together(const Emitting& of, std::uint64_t event, int lane_width) {
-  const auto stream = [&](std::uint64_t i) { return core::Rng(7, core::StreamKind::photon, event, i); };
+  const auto stream = [&](std::uint64_t i) {
+    return core::Rng(7 + i / 3 % 2, core::StreamKind::photon, event, i);
+  };
   EventLight light;
   core::Rng event_rng(7, core::StreamKind::event, event);
   of.source->begin(of.scene, event, event_rng, light);

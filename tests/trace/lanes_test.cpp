@@ -79,16 +79,16 @@ scattering = { length = "100 mm", kind = "rayleigh" }
 )";
 }
 
-/// Five rough faces, of which no two are parallel, and two that are.
-std::string prism() {
+/// Five faces, of which no two are parallel, and two that are.
+std::string prism(const std::string& surface, const std::string& sensor_side, const std::string& more = "") {
   return R"(
 ambient = "vacuum"
 [[part]]
 name = "crystal"
 prism = { sides = 5, radius = "1.8 mm", height = "8 mm" }
 medium = "LSO_roncali2013"
-surface = "roncali2013_unified_rough"
-)" + sensor_and_source("6 mm");
+surface = ")" +
+         surface + "\"\n" + sensor_and_source(sensor_side) + more;
 }
 
 /// A polished crystal with round walls, exact, on a sensor of the whole face.
@@ -222,6 +222,26 @@ sensor = "ideal"
 )" + source;
 }
 
+/// The end of a photon that is traced one step after another, and its segments.
+struct TracedAlone {
+  source::Photon photon;
+  std::uint64_t segments = 0;
+};
+TracedAlone traced_alone(const scene::Scene& scene, const transport::PropagationLimits& limits,
+                         const source::Photon& photon, core::Rng rng) {
+  TracedAlone end{photon};
+  for (;;) {
+    const transport::Step step = transport::step(scene, end.photon, rng, limits);
+    end.segments += step.segments;
+    if (core::is_final(step.event) || limits.reached(end.photon)) return end;
+  }
+}
+void check_end(const transport::TracedPhoton& end, const TracedAlone& alone) {
+  CHECK(end.photon.position.z() == alone.photon.position.z());
+  CHECK(end.photon.path_mm == alone.photon.path_mm);
+  CHECK(end.segments_before + end.last.segments == alone.segments);
+}
+
 }  // namespace
 
 TEST_CASE("Results and photons are the same to the last bit for every width of the lanes") {
@@ -236,7 +256,14 @@ TEST_CASE("Results and photons are the same to the last bit for every width of t
   SUBCASE("unpolarised") { scene = crystal("roncali2013_unified_rough", "polarisation = \"unpolarised\"\n"); }
   SUBCASE("birefringent") { scene = birefringent_crystal("polished"); }
   SUBCASE("birefringent, facets") { scene = birefringent_crystal("roncali2013_unified_rough"); }
-  SUBCASE("rough prism") { scene = prism(); }
+  SUBCASE("rough prism") { scene = prism("roncali2013_unified_rough", "6 mm"); }
+  SUBCASE("polished prism") { scene = prism("polished", "6 mm"); }
+  SUBCASE("polished prism, its end over two regions, cut by interactions") {
+    scene = prism("polished", "1 mm", "[run]\nmax_interactions = 9\n");
+  }
+  SUBCASE("polished prism, cut by time") {
+    scene = prism("polished", "6 mm", "[run]\nmax_time = \"0.3 ns\"\n");
+  }
   SUBCASE("rough, cut by interactions") {
     scene = crystal("backed", std::string(kBacked) + "[run]\nmax_interactions = 7\n");
   }
@@ -457,6 +484,31 @@ photons = 4000
   CHECK(mean_group(16) > 0.9 * one);  // a sixteenth, were each part by itself
 }
 
+TEST_CASE("Photons whose random numbers have other seeds are traced beside each other") {
+  const auto point = ready(scene_spec(crystal("paint", kPaint)));
+  const auto stream = [](std::uint64_t i) {
+    RunSettings settings;
+    settings.seed += i % 3;
+    return photon_stream(settings, 0, i);
+  };
+  const auto emit = [&](std::uint64_t i, std::span<source::EmittedPhoton* const> photons) {
+    for (source::EmittedPhoton* const emitted : photons) {
+      emitted->rng = stream(i);
+      emitted->photon = point->start(0, i++);
+    }
+  };
+  transport::PropagationLimits limits;
+  limits.interactions = 1000;
+  for (const int width : core::lane_widths()) {
+    CAPTURE(width);
+    const transport::LanePlan lanes(point->scene(), width);
+    transport::Batch batch(point->scene(), limits, lanes);
+    batch.trace(600, emit, [&](std::uint64_t i, const transport::TracedPhoton& end) {
+      check_end(end, traced_alone(point->scene(), limits, point->start(0, i), stream(i)));
+    });
+  }
+}
+
 TEST_CASE("Ends arrive in the order of photons, however many others end before one of them") {
   // Every thousandth photon starts in a painted crystal, the others beside it, and leave the scene at once.
   const auto point = ready(scene_spec(crystal("paint", kPaint)));
@@ -498,16 +550,8 @@ TEST_CASE("Ends arrive in the order of photons, however many others end before o
           return;
         }
         core::Rng rng = stream(i);
-        source::Photon alone = emit_one(i, rng);
-        std::uint64_t segments = 0;
-        for (;;) {
-          const transport::Step step = transport::step(scene, alone, rng, limits);
-          segments += step.segments;
-          if (core::is_final(step.event) || limits.reached(alone)) break;
-        }
-        CHECK(end.photon.position.z() == alone.position.z());
-        CHECK(end.photon.path_mm == alone.path_mm);
-        CHECK(end.segments_before + end.last.segments == segments);
+        const source::Photon photon = emit_one(i, rng);
+        check_end(end, traced_alone(scene, limits, photon, rng));
       });
       CHECK(next == 3000);
     }

@@ -40,7 +40,7 @@ TEST_CASE("Laws over a number type have the bits of those for one photon") {
     require(same_angle(laws::sincos(7.0 * u), core::sincos(7.0 * u)));
     require(same_angle(laws::sincos_of_turn(u), core::sincos_of_turn(u)));
     const std::uint64_t key = rng.bits();
-    const PhiloxBlock<std::uint64_t> block({i, 2, key, 4}, {key, 6});
+    const PhiloxBlock<std::uint64_t> block({i, 2, key, 4}, PhiloxKeys<std::uint64_t>(key, 6));
     const std::array<std::uint64_t, 4> expected = philox4x64({i, 2, key, 4}, {key, 6});
     for (std::size_t k = 0; k < 4; ++k) require(block.words[k] == expected[k]);
   }

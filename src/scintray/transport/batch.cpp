@@ -182,6 +182,7 @@ void Batch::Tracing::start() {
                                                 ended_.end());
     for (std::size_t i = 0; i < count; ++i) starting[i] = &travellers_[places[i]];
     emit_(next_, {starting, count});
+    if (next_ == 0) surface_lanes_.begin(starting[0]->rng);
     for (const std::uint32_t place : places) {
       Traveller& traveller = travellers_[place];
       ends_.expect(next_);

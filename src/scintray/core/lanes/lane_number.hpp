@@ -210,10 +210,6 @@ struct LaneReal {
   friend LaneReal select_by_sign(const LaneReal& x, const LaneReal& positive, const LaneReal& negative) {
     return Lanes(chosen_by_sign(x.lanes, positive.lanes, negative.lanes));
   }
-  /// -x where the condition holds, else x.
-  friend LaneReal negated(const Mask& condition, const LaneReal& x) {
-    return number_of(bits_of(x) ^ bits_of(where(condition, LaneReal(-0.0))));
-  }
   friend Bits bits_of(const LaneReal& x) { return xsimd::bitwise_cast<typename Bits::Lanes>(x.lanes); }
   friend LaneReal root(const LaneReal& x) { return xsimd::sqrt(x.lanes); }
   friend LaneReal magnitude(const LaneReal& x) { return number_of(bits_of(x) & Bits(~kSign)); }
@@ -340,9 +336,6 @@ struct LaneRealPair {
   friend LaneRealPair select_by_sign(const LaneRealPair& x, const LaneRealPair& positive,
                                      const LaneRealPair& negative) {
     return {select_by_sign(x.a, positive.a, negative.a), select_by_sign(x.b, positive.b, negative.b)};
-  }
-  friend LaneRealPair negated(const Mask& condition, const LaneRealPair& x) {
-    return {negated(condition.a, x.a), negated(condition.b, x.b)};
   }
   friend Bits bits_of(const LaneRealPair& x) { return {bits_of(x.a), bits_of(x.b)}; }
   friend LaneRealPair root(const LaneRealPair& x) { return {root(x.a), root(x.b)}; }

@@ -150,10 +150,13 @@ class SurfaceLanes {
   SurfaceLanes(const scene::Scene& scene, const LaneScene& lanes, const PropagationLimits& limits,
                RunLanes kernel);
 
+  /// To be called before photons are entered into empty lanes.
+  /// @param first  a stream of random numbers with the key of those whose photons are to be taken
+  void begin(const core::Rng& first);
   /// Whether a photon in a region of LaneKind::surfaces can be entered: all have one seed, and in scenes of
   /// one wavelength one wavelength.
   bool takes(const source::Photon& photon, const core::Rng& rng) const {
-    if (key_ && *key_ != rng.key()) return false;
+    if (rng.key() != key_) return false;
     if (pool_.one_wavelength && photon.wavelength_nm != at_first_.wavelength_nm) return false;
     const scene::Region& region = scene_.regions[photon.region];
     return !region.thin_gaps || lane_scene_.face_at_gap(region, photon.on_triangle).has_value();
@@ -188,9 +191,8 @@ class SurfaceLanes {
   PropagationLimits limits_;
   RunLanes run_;
   const LaneScene& lane_scene_;
-  std::optional<std::array<std::uint64_t, 2>>
-      key_;                           ///< of the random numbers of all photons; none: none was entered
-  LaneScene::AtWavelength at_first_;  ///< of the first photon
+  std::array<std::uint64_t, 2> key_{};        ///< of the random numbers of all photons
+  LaneScene::AtWavelength at_first_;          ///< of the first photon
   std::vector<LaneScene::AtWavelength> own_;  ///< by slot, of photons of other wavelengths
   LanePool pool_;
   std::array<std::uint32_t, LanePool::kPhotons> names_{};

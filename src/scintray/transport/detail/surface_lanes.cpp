@@ -44,11 +44,12 @@ SurfaceLanes::SurfaceLanes(const scene::Scene& scene, const LaneScene& lanes, co
   for (std::uint32_t slot = LanePool::kPhotons; slot-- > 0;) free_.push_back(slot);
 }
 
+void SurfaceLanes::begin(const core::Rng& first) {
+  key_ = first.key();
+  pool_.keys = core::PhiloxKeys<std::uint64_t>(key_[0], key_[1]);
+}
+
 void SurfaceLanes::enter(std::uint32_t name, const source::Photon& photon, const core::Rng& rng) {
-  if (!key_) {
-    key_ = rng.key();
-    pool_.keys = core::PhiloxKeys<std::uint64_t>(rng.key()[0], rng.key()[1]);
-  }
   const std::uint32_t slot = free_.back();
   free_.pop_back();
   names_[slot] = name;
