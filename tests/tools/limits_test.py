@@ -85,6 +85,7 @@ class Limits(unittest.TestCase):
     def test_kernels_are_the_functions_in_lanes(self):
         for name in ('scintray::transport::(anonymous namespace)::LanePasses<scintray::transport::LaneRealPair<xsimd::avx2> >::run()',
                      'scintray::transport::(anonymous namespace)::LanePhotons<LaneReal>::draw_one_by_one(unsigned int)',
+                     'scintray::transport::(anonymous namespace)::LaneBoxSet<scintray::core::LaneReal<xsimd::avx2> >::last_pass()',
                      'scintray::transport::propagate_lanes_4(scintray::transport::LanePlanes const&)',
                      'scintray::transport::propagate_lanes_in_body_8(scintray::transport::LaneBody const&)'):
             self.assertTrue(KERNEL.search(name), name)

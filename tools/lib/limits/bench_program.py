@@ -15,7 +15,7 @@ TRACE = re.compile(r' T (scintray::bench::Workload::trace\(.*\) const)$', re.MUL
 CALLGRIND = ['valgrind', '--tool=callgrind', '--cache-sim=yes', '--branch-sim=yes']
 FIRST_COUNTED = 2  # file of the first trace that is compared: those before it fill caches
 # Functions of the kernels that propagate photons in lanes.
-KERNEL = re.compile(r'\bLane(?:Passes|Photons|Propagation)<|\b(?:propagate|run)_lanes_(?:in_body_)?\d')
+KERNEL = re.compile(r'\bLane(?:Passes|Photons|Propagation|BoxSet)<|\b(?:propagate|run)_lanes_(?:in_body_)?\d')
 # What an instruction in a kernel does, by the source file of its line; all else is done for one lane after another.
 VECTORS, RANDOM, SINGLE = 'vectors', 'Philox', 'one lane'
 IN_KERNELS = ((re.compile(r'intrin\.h$|/xsimd/'), VECTORS), (re.compile(r'/philox_laws\.hpp$'), RANDOM))

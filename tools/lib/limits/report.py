@@ -41,7 +41,8 @@ def number(value, digits=0):
 def bounds(figures, clock):
     """ns a segment: what dispatch, four instructions a cycle, loads, wrong predictions and the chain take by themselves."""
     whole = figures.counts.whole
-    chained = sum(cycles for _, cycles in rows.chain(COUNTED_LANES)) / COUNTED_LANES if figures.row.chained else None
+    lanes = COUNTED_LANES * rows.VECTORS_IN_TURNS
+    chained = sum(cycles for _, cycles in rows.chain()) / lanes if figures.row.chained else None
     cycles = [whole.instructions / rows.DISPATCHED, whole.instructions / 4, whole.loads / rows.LOADED,
               whole.mispredicted * rows.MISPREDICTED, chained]
     return [None if count is None else count / clock for count in cycles]
@@ -161,6 +162,6 @@ def text_of(measured, machine, version):
              table_of_counts(measured), table_of_kernels(measured), table_of_times(measured, clock),
              table_of_factors(measured)]
     if any(figures.row.chained for figures in measured):
-        parts.append('The chain, cycles of a vector: ' +
-                     ', '.join(f'{what} {cycles}' for what, cycles in rows.chain(COUNTED_LANES)) + '.\n')
+        parts.append(f'The chain, cycles of a vector, of which {rows.VECTORS_IN_TURNS} take turns: ' +
+                     ', '.join(f'{what} {cycles}' for what, cycles in rows.chain()) + '.\n')
     return '\n'.join(parts)

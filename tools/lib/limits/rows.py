@@ -36,19 +36,19 @@ ROWS = [
 # prediction commonly costs. Assumed: that an instruction is one macro-op.
 DISPATCHED, LOADED, MISPREDICTED = 6, 2, 13
 
-# The longest chain from one segment's direction to the next one's, in the kernel for total reflections in a box
-# (lane_kernel_of.hpp), with the cycles of its instructions by the same source. Divisions of the three pairs of planes
-# begin one after another. Not counted: that a load may wait until narrower stores have left their queue.
-ADD, MULTIPLY, DIVIDE, COMPARE, BLEND, STORE, LOAD, CONVERT = 3, 3, 13, 2, 1, 1, 8, 1
-DIVIDES_EVERY = {4: 5, 8: 10}  # cycles, by lanes
+# The longest chain from one segment's end to the next one's, in the kernel for total reflections in a box
+# (lane_box_set.hpp), with the cycles of its instructions by the same source; comparisons are those of minima and
+# maxima, too. Two vectors take turns, so that a processor works on two such chains at a time.
+ADD, MULTIPLY, COMPARE, BLEND, STORE, LOAD = 3, 3, 2, 1, 1, 8
+VECTORS_IN_TURNS = 2
 
 
-def chain(lanes):
+def chain():
     """(what, cycles) of the chain, for all lanes of a vector together."""
-    dot = MULTIPLY + 2 * ADD
-    return [('direction times normal', dot + BLEND),
-            ('three divisions', DIVIDE + 2 * DIVIDES_EVERY[lanes]),
-            ('the nearest plane', COMPARE + 2 * BLEND),
-            ('its number out of the vector', STORE + LOAD + CONVERT),
-            ('its normal into a vector', LOAD + STORE + LOAD),
-            ('the direction reflected', MULTIPLY + ADD)]
+    return [('the position out of memory', LOAD),
+            ('its distance from the faces across an axis', 2 * ADD),
+            ('that of the face ahead', BLEND + COMPARE),
+            ('times the inverse cosine', MULTIPLY),
+            ('the least of three', 3 * COMPARE),
+            ('the next position', MULTIPLY + ADD),
+            ('into memory', STORE)]

@@ -38,7 +38,6 @@ class LaneBodyWalls {
     left_.of[lane] = photon.left;
     least_sin2_[lane] = photon.least_sin2;
   }
-  static Real face(const Ahead& ahead) { return ahead.plane; }
   /// optics::reflect.
   static optics::LightRay<Real> reflected(const Ahead&, const LaneArrival<Real>& at,
                                           const optics::LightRay<Real>& light) {

@@ -7,6 +7,7 @@
 
 #include "scintray/transport/detail/lanes/lane_box.hpp"
 #include "scintray/transport/detail/lanes/lane_kernel.hpp"
+#include "scintray/transport/detail/lanes/lane_kernel_of.hpp"
 #include "scintray/transport/detail/lanes/lane_numbers.hpp"
 #include "scintray/transport/detail/propagation_laws.hpp"
 
@@ -15,71 +16,61 @@ namespace {
 
 /// Has the bits of LaneSet<LaneFlatWalls>.
 template <typename Real>
-class LaneBoxSet {
-  using Mask = typename Real::Mask;
-  using Vector = core::Triple<Real>;
-  using Numbers = LaneNumbers<Real>;
-  using Numbers3 = LaneNumbers3<Real>;
+class LaneBoxSet : public LaneSlots<Real> {
+  using Slots = LaneSlots<Real>;
+  using typename Slots::Mask;
+  using typename Slots::Numbers;
+  using typename Slots::Vector;
 
  public:
   using Region = LanePlanes;
-  static constexpr std::size_t kWidth = Real::kWidth;
 
   /// @param any  a photon, whose numbers serve lanes without one
-  LaneBoxSet(const LanePlanes& box, const LaneLimits& limits, const LaneWork& any) : limits_(limits) {
+  LaneBoxSet(const LanePlanes& box, const LaneLimits& limits, const LaneWork& any) : Slots(limits) {
     for (std::uint32_t i = 0; i < kFaces; ++i) offset_mm_[i] = box.plane(i)[3];
-    for (std::size_t lane = 0; lane < kWidth; ++lane) set(lane, any);
+    for (std::size_t lane = 0; lane < Slots::kWidth; ++lane) set(lane, any);
   }
 
-  /// A bit for each lane with a photon.
-  unsigned busy() const { return busy_; }
   void fill(std::size_t lane, LaneWork& photon) {
-    photon_[lane] = &photon;
-    begun_[lane] = segments_;
-    busy_ |= 1u << lane;
     set(lane, photon);
-    const double passes = static_cast<double>(segments_) + (limits_.interactions - photon.interactions);
-    first_limit_ = passes < first_limit_ ? passes : first_limit_;
+    Slots::take(lane, photon);
   }
-
   /// Moves all lanes by a segment.
   /// @return a bit for each lane whose photon has ended
   unsigned pass() {
     const Segment to = segment();
-    const unsigned goes_on = lanes_of((to.total < Real(0.0)) & (to.time <= Real(limits_.time_ns)) & !to.bulk);
-    if ((busy_ & ~goes_on) != 0 || static_cast<double>(segments_ + 1) >= first_limit_) return end_pass();
-    ++segments_;
+    const unsigned goes_on =
+        lanes_of((to.total < Real(0.0)) & (to.time <= Real(Slots::limits_.time_ns)) & !to.bulk);
+    if ((Slots::busy() & ~goes_on) != 0 || Slots::may_be_last()) return last_pass();
+    Slots::count_pass();
     position_.store(to.there);
     direction_.store(to.ahead.signs().of(direction_.load()));
     path_.store(to.path), time_.store(to.time), depth_.store(to.depth_left);
     return 0;
   }
   /// Ends a photon that pass() has returned.
-  void end(std::size_t lane) {
-    constexpr LaneEnd kEnds[] = {LaneEnd::unclear, LaneEnd::bulk, LaneEnd::boundary, LaneEnd::total};
-    const LaneEnd how = kEnds[static_cast<int>(code_.of[lane])];
-    photon_[lane]->cosine = cosine_.of[lane];
-    photon_[lane]->face = static_cast<std::uint32_t>(face_.of[lane]);
-    const std::uint32_t passes = segments_ - begun_[lane];
-    give_back(lane, how, passes - (how == LaneEnd::total ? 0 : 1));
-    photon_[lane]->segments = passes - (how == LaneEnd::unclear ? 1 : 0);
-  }
+  void end(std::size_t lane) { give_back(lane, Slots::ending(lane)); }
   void end_unfinished() {
-    for (; busy_ != 0;) {
-      const auto lane = static_cast<std::size_t>(__builtin_ctz(busy_));
-      const std::uint32_t passes = segments_ - begun_[lane];
-      give_back(lane, LaneEnd::unfinished, passes);
-      photon_[lane]->segments = passes;
-    }
+    while (Slots::busy() != 0)
+      give_back(static_cast<std::size_t>(__builtin_ctz(Slots::busy())), LaneEnd::unfinished);
   }
 
  private:
+  using Slots::attenuation_;
+  using Slots::centre_;
+  using Slots::depth_;
+  using Slots::direction_;
+  using Slots::path_;
+  using Slots::position_;
+  using Slots::time_;
+  using Slots::time_per_mm_;
   static constexpr std::uint32_t kFaces = 6;
   /// To the next face.
   struct Segment {
     LaneBoxAhead<Real> ahead;
     Vector there;
-    Real path, time, depth_left, total;
+    Real path, time, depth_left;
+    Real total;  ///< negative: the face reflects totally
     Mask bulk;
   };
 
@@ -95,95 +86,72 @@ class LaneBoxSet {
             path_.load() + distance,
             time_.load() + distance * time_per_mm_.load(),
             depth_left - depth,
-            ahead.of_face(of_face(total_, direction.x, 0), of_face(total_, direction.y, 1),
-                          of_face(total_, direction.z, 2)),
+            at_face(total_, ahead, direction),
             depth > depth_left};
   }
-  /// As pass(), where some photon may end.
-  [[gnu::noinline]] unsigned end_pass() {
+  /// As pass(), where some photon may end: the same numbers once more, so that passes in which none ends keep
+  /// nothing for it.
+  [[gnu::noinline]] unsigned last_pass() {
     const Segment to = segment();
-    const Real zero(0.0), one(1.0);
-    ++segments_;
     const Vector position = position_.load(), direction = direction_.load();
-    const Mask stays =
-        to.bulk | (to.ahead.of_face(of_face(unclear_, direction.x, 0), of_face(unclear_, direction.y, 1),
-                                    of_face(unclear_, direction.z, 2)) < zero);
-    const Mask total = to.total < zero, turns = total & !stays;
-    const Real along = to.ahead.along(direction);
-    face_.store(to.ahead.face(along));
-    cosine_.store(magnitude(along));
+    const Mask stays = to.bulk | (at_face(unclear_, to.ahead, direction) < Real(0.0));
+    const Mask total = to.total < Real(0.0), turns = total & !stays;
+    Slots::count_pass();
     position_.store(select(stays, position, to.there));
     direction_.store(select(turns, to.ahead.signs().of(direction), direction));
     path_.store(select(stays, path_.load(), to.path));
     time_.store(select(stays, time_.load(), to.time));
     depth_.store(select(stays, depth_.load(), to.depth_left));
-    code_.store(select(stays, where(to.bulk, one), select(total, Real(3.0), Real(2.0))));
-    const Real interactions = interactions_before_.load() + Real(static_cast<double>(segments_));
-    const Mask within = (interactions < Real(limits_.interactions)) & (to.time <= Real(limits_.time_ns));
-    return busy_ & ~lanes_of(turns & within);
+    const Real along = to.ahead.along(direction);
+    return Slots::keep({stays, to.bulk, total, turns, to.ahead.face(along), magnitude(along)}, to.time);
   }
-  /// Of the two faces across an axis that of a ray's side.
-  static Real of_face(const Numbers (&of)[kFaces], const Real& towards, std::uint32_t axis) {
-    return select_by_sign(towards, of[2 * axis].load(), of[2 * axis + 1].load());
+  /// Numbers of the face that a ray leaves through.
+  static Real at_face(const Numbers (&of)[kFaces], const LaneBoxAhead<Real>& ahead, const Vector& direction) {
+    const auto across = [&of](std::uint32_t axis, const Real& towards) {
+      return select_by_sign(towards, of[2 * axis].load(), of[2 * axis + 1].load());
+    };
+    return ahead.of_face(across(0, direction.x), across(1, direction.y), across(2, direction.z));
   }
 
   void set(std::size_t lane, const LaneWork& photon) {
-    position_.set(lane, photon.position);
-    direction_.set(lane, photon.direction);
-    centre_.set(lane, photon.centre);
-    path_.of[lane] = photon.path_mm;
-    time_.of[lane] = photon.time_ns;
-    depth_.of[lane] = photon.depth_left;
-    time_per_mm_.of[lane] = time_along(1.0, photon.group_index);
-    attenuation_.of[lane] = photon.attenuation_per_mm;
-    interactions_before_.of[lane] = photon.interactions - static_cast<double>(segments_);
+    Slots::set(lane, photon);
     Numbers* const inverse[3] = {&inverse_.x, &inverse_.y, &inverse_.z};
     for (std::uint32_t axis = 0; axis < 3; ++axis) {
       const double along = core::magnitude(photon.direction[axis]);
       inverse[axis]->of[lane] = 1.0 / along;
       for (std::uint32_t face = 2 * axis; face < 2 * axis + 2; ++face) {
-        total_[face].of[lane] = totally_reflected(along, photon.least_sin2[face]) ? -1.0 : 1.0;
-        unclear_[face].of[lane] =
-            photon.least_sin2[face] > 0.5 * (kNoTotalReflection + kManyRegions) ? -1.0 : 1.0;
+        const double least_sin2 = photon.least_sin2[face];
+        total_[face].of[lane] = totally_reflected(along, least_sin2) ? -1.0 : 1.0;
+        unclear_[face].of[lane] = least_sin2 > 0.5 * (kNoTotalReflection + kManyRegions) ? -1.0 : 1.0;
       }
     }
   }
-  /// @param reflections  in the lane
-  void give_back(std::size_t lane, LaneEnd how, std::uint32_t reflections) {
+  void give_back(std::size_t lane, LaneEnd how) {
     constexpr std::uint64_t kSign = std::uint64_t{1} << 63;
-    LaneWork& photon = *photon_[lane];
+    const auto [photon, reflections] = Slots::release(lane, how);
     const std::uint64_t all = (reflections & 1) != 0 ? kSign : 0;
-    const double direction[3] = {direction_.x.of[lane], direction_.y.of[lane], direction_.z.of[lane]};
+    double direction[3];
+    direction_.get(lane, direction);
     for (int axis = 0; axis < 3; ++axis) {
       const std::uint64_t changed = core::bits_of(photon.direction[axis]) ^ core::bits_of(direction[axis]);
       photon.polarisation[axis] = core::number_of(core::bits_of(photon.polarisation[axis]) ^ changed ^ all);
       photon.direction[axis] = direction[axis];
     }
-    position_.get(lane, photon.position);
-    photon.path_mm = path_.of[lane];
-    photon.time_ns = time_.of[lane];
-    photon.depth_left = depth_.of[lane];
-    photon.interactions += reflections;
-    photon.end = how;
-    busy_ &= ~(1u << lane);
   }
 
-  const LaneLimits limits_;
   double offset_mm_[kFaces];
-  unsigned busy_ = 0;
-  std::uint32_t segments_ = 0;  ///< of each lane, since the beginning
-  double first_limit_ =
-      std::numeric_limits<double>::infinity();  ///< number of segments with which some photon has, or had,
-                                                ///< its last interaction
-  LaneWork* photon_[kWidth];
-  std::uint32_t begun_[kWidth];
-  Numbers3 position_, direction_, centre_, inverse_;
-  Numbers path_, time_, depth_, time_per_mm_, attenuation_, interactions_before_;
+  typename Slots::Numbers3 inverse_;  ///< of the magnitudes of the direction's components
   Numbers total_[kFaces],
       unclear_[kFaces];  ///< negative: the face reflects totally, leads to several regions
-  // Of photons that end.
-  Numbers cosine_, face_, code_;
 };
+
+/// Inlined, so that a profile has the time under the name of the kernel, which is known outside its file. Two
+/// vectors take turns: each waits for its divisions and selections for half of a pass.
+template <typename Real>
+[[gnu::always_inline]] inline void propagate_in_box(const LanePlanes& box, const LaneLimits& limits,
+                                                    LaneWork* photons, std::size_t count) {
+  LanePropagation<LaneBoxSet<Real>, 2>::run(box, limits, photons, count);
+}
 
 }  // namespace
 }  // namespace scintray::transport

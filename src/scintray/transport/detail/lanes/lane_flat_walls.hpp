@@ -1,7 +1,6 @@
 #pragma once
 /// The walls of a region that is bounded by planes, for LanePropagation.
 
-#include "scintray/transport/detail/lanes/lane_box_set.hpp"
 #include "scintray/transport/detail/lanes/lane_kernel.hpp"
 #include "scintray/transport/detail/lanes/lane_kernel_of.hpp"
 #include "scintray/transport/detail/lanes/lane_numbers.hpp"
@@ -40,7 +39,6 @@ class LaneFlatWalls {
       least_sin2_[lane] = photon.least_sin2;
   }
   // Planes have no state in a lane.
-  static Real face(const Ahead& ahead) { return ahead.plane; }
   /// optics::reflect.
   static optics::LightRay<Real> reflected(const Ahead&, const LaneArrival<Real>& at,
                                           const optics::LightRay<Real>& light) {
@@ -101,11 +99,10 @@ class LaneFlatWalls {
 };
 
 /// Inlined, so that a profile has the time under the name of the kernel, which is known outside its file.
-template <typename Real, int kSets>
+template <typename Real>
 [[gnu::always_inline]] inline void propagate_between_planes(const LanePlanes& planes,
                                                             const LaneLimits& limits, LaneWork* photons,
                                                             std::size_t count) {
-  if (planes.box) return LanePropagation<LaneBoxSet<Real>, kSets>::run(planes, limits, photons, count);
   if constexpr (Real::kWidth >= 8)
     if (planes.count <= kFewPlanes)
       return LanePropagation<LaneSet<LaneFlatWalls<Real, true>>, 1>::run(planes, limits, photons, count);

@@ -14,61 +14,147 @@ namespace {
 
 /// The photons in the lanes of one vector. Their numbers are in memory between passes: a photon enters and
 /// leaves its lane by as many loads and stores as it has numbers.
-///
-/// @tparam Walls  LaneFlatWalls or LaneBodyWalls, of a number type
-template <typename Walls>
-class LaneSet {
-  using Real = typename Walls::Number;
+template <typename Real>
+class LaneSlots {
+ public:
+  static constexpr std::size_t kWidth = Real::kWidth;
+
+  /// A bit for each lane with a photon.
+  unsigned busy() const { return busy_; }
+
+ protected:
   using Mask = typename Real::Mask;
   using Vector = core::Triple<Real>;
   using Numbers = LaneNumbers<Real>;
   using Numbers3 = LaneNumbers3<Real>;
 
+  explicit LaneSlots(const LaneLimits& limits) : limits_(limits) {}
+
+  /// Sets the numbers of a lane, to which a photon may belong, or none.
+  void set(std::size_t lane, const LaneWork& photon) {
+    position_.set(lane, photon.position);
+    direction_.set(lane, photon.direction);
+    centre_.set(lane, photon.centre);
+    path_.of[lane] = photon.path_mm;
+    time_.of[lane] = photon.time_ns;
+    time_per_mm_.of[lane] = time_along(1.0, photon.group_index);
+    depth_.of[lane] = photon.depth_left;
+    attenuation_.of[lane] = photon.attenuation_per_mm;
+    interactions_before_.of[lane] = photon.interactions - count();
+  }
+  void take(std::size_t lane, LaneWork& photon) {
+    photon_[lane] = &photon;
+    begun_[lane] = passes_;
+    busy_ |= 1u << lane;
+    const double last = count() + (limits_.interactions - photon.interactions);
+    first_last_ = last < first_last_ ? last : first_last_;
+  }
+  /// A photon with all that the lanes share, once it has left its lane.
+  struct Released {
+    LaneWork& photon;
+    std::uint32_t reflections;
+  };
+  /// @param how  unfinished, or as of ending()
+  Released release(std::size_t lane, LaneEnd how) {
+    LaneWork& photon = *photon_[lane];
+    const std::uint32_t passes = passes_ - begun_[lane];
+    const std::uint32_t reflections = passes - (how == LaneEnd::total || how == LaneEnd::unfinished ? 0 : 1);
+    position_.get(lane, photon.position);
+    photon.path_mm = path_.of[lane];
+    photon.time_ns = time_.of[lane];
+    photon.depth_left = depth_.of[lane];
+    photon.interactions += reflections;
+    photon.cosine = cosine_.of[lane];
+    photon.face = static_cast<std::uint32_t>(face_.of[lane]);
+    photon.segments = passes - (how == LaneEnd::unclear ? 1 : 0);
+    photon.end = how;
+    busy_ &= ~(1u << lane);
+    return {photon, reflections};
+  }
+
+  double count() const { return static_cast<double>(passes_); }
+  /// Whether some photon may have its last interaction in the next pass.
+  bool may_be_last() const { return static_cast<double>(passes_ + 1) >= first_last_; }
+  void count_pass() { ++passes_; }
+
+  /// The ends of photons that a counted pass has moved.
+  struct Ends {
+    Mask stays, bulk, total, turns;  ///< stays: where it was, turns: is totally reflected
+    Real face, cosine;
+  };
+  /// Keeps what ending() needs.
+  /// @return a bit for each lane whose photon has ended
+  unsigned keep(const Ends& ends, const Real& there_time) {
+    face_.store(ends.face);
+    cosine_.store(ends.cosine);
+    code_.store(select(ends.stays, where(ends.bulk, Real(1.0)), select(ends.total, Real(3.0), Real(2.0))));
+    const Real interactions = interactions_before_.load() + Real(count());
+    const Mask within = (interactions < Real(limits_.interactions)) & (there_time <= Real(limits_.time_ns));
+    return busy_ & ~lanes_of(ends.turns & within);
+  }
+  LaneEnd ending(std::size_t lane) const {
+    constexpr LaneEnd kEnds[] = {LaneEnd::unclear, LaneEnd::bulk, LaneEnd::boundary, LaneEnd::total};
+    return kEnds[static_cast<int>(code_.of[lane])];
+  }
+
+  const LaneLimits limits_;
+  Numbers3 position_, direction_, centre_;
+  Numbers path_, time_, time_per_mm_, depth_, attenuation_;
+
+ private:
+  unsigned busy_ = 0;
+  std::uint32_t passes_ = 0;
+  double first_last_ = std::numeric_limits<double>::infinity();
+  LaneWork* photon_[kWidth];
+  std::uint32_t begun_[kWidth];
+  Numbers interactions_before_;         ///< that it had at the first pass
+  Numbers cosine_{}, face_{}, code_{};  ///< of photons that end
+};
+
+/// Photons in a region within walls.
+///
+/// @tparam Walls  LaneFlatWalls or LaneBodyWalls, of a number type
+template <typename Walls>
+class LaneSet : public LaneSlots<typename Walls::Number> {
+  using Real = typename Walls::Number;
+  using Slots = LaneSlots<Real>;
+  using typename Slots::Mask;
+  using typename Slots::Vector;
+
  public:
   using Region = typename Walls::Region;
-  static constexpr std::size_t kWidth = Real::kWidth;
 
   /// @param any  a photon, whose numbers serve lanes without one
-  LaneSet(const typename Walls::Region& region, const LaneLimits& limits, const LaneWork& any)
-      : walls_(region), limits_(limits) {
-    for (std::size_t lane = 0; lane < kWidth; ++lane) set(lane, any);
+  LaneSet(const Region& region, const LaneLimits& limits, const LaneWork& any)
+      : Slots(limits), walls_(region) {
+    for (std::size_t lane = 0; lane < Slots::kWidth; ++lane) set(lane, any);
   }
 
-  /// A bit for each lane with a photon.
-  unsigned busy() const { return busy_; }
   void fill(std::size_t lane, LaneWork& photon) {
-    photon_[lane] = &photon;
-    begun_[lane] = segments_;
-    busy_ |= 1u << lane;
     set(lane, photon);
-    const double passes = static_cast<double>(segments_) + (limits_.interactions - photon.interactions);
-    first_limit_ = passes < first_limit_ ? passes : first_limit_;
+    Slots::take(lane, photon);
   }
-
   /// Moves all lanes by a segment.
   /// @return a bit for each lane whose photon has ended
   unsigned pass() {
-    const Real one(1.0);
-    ++segments_;
-    const Vector position = position_.load();
+    const Vector position = position_.load(), centre = centre_.load();
     const optics::LightRay<Real> light{direction_.load(), polarisation_.load()};
-    const Vector centre = centre_.load();
     const typename Walls::Ahead ahead = walls_.nearest(position - centre, light.direction);
-    const Real nearest = ahead.distance_mm;
-    const Real depth = attenuation_.load() * nearest, depth_left = depth_.load();
-    Mask misses = depth > depth_left;
-    const Mask bulk = misses;
-    Vector there = position + nearest * light.direction;
+    const Real distance = ahead.distance_mm;
+    const Real depth = attenuation_.load() * distance, depth_left = depth_.load();
+    const Mask bulk = depth > depth_left;
+    Vector there = position + distance * light.direction;
     const auto at = walls_.arrive(ahead, light.direction, centre, there);
+    Mask misses = bulk;
     if constexpr (!Walls::kEncloses) misses = misses | walls_.none(ahead);
     const Mask total = totally_reflected(at.cosine, at.least_sin2);
     const Real path = path_.load(), time = time_.load();
-    const Real there_path = path + nearest, there_depth = depth_left - depth,
-               there_time = time + time_along(nearest, group_.load());
-    const Mask goes_on = total & (there_time <= Real(limits_.time_ns)) & !misses;
-    const unsigned ended = busy_ & ~lanes_of(goes_on);
-    const auto count = static_cast<double>(segments_);
-    if (ended == 0 && count < first_limit_) {
+    const Real there_path = path + distance, there_depth = depth_left - depth,
+               there_time = time + distance * time_per_mm_.load();
+    const unsigned goes_on = lanes_of(total & (there_time <= Real(Slots::limits_.time_ns)) & !misses);
+    const bool some_end = (Slots::busy() & ~goes_on) != 0 || Slots::may_be_last();
+    Slots::count_pass();
+    if (!some_end) {
       const optics::LightRay<Real> reflected = Walls::reflected(ahead, at, light);
       position_.store(there);
       direction_.store(reflected.direction), polarisation_.store(reflected.polarisation);
@@ -77,78 +163,47 @@ class LaneSet {
       return 0;
     }
     const Mask stays = misses | (at.least_sin2 > Real(0.5 * (kNoTotalReflection + kManyRegions)));
-    walls_.leave(ahead, stays);
     const Mask turns = total & !stays;
+    walls_.leave(ahead, stays);
     position_.store(select(stays, position, there));
     path_.store(select(stays, path, there_path));
     time_.store(select(stays, time, there_time));
     depth_.store(select(stays, depth_left, there_depth));
     const optics::LightRay<Real> after = select(turns, Walls::reflected(ahead, at, light), light);
     direction_.store(after.direction), polarisation_.store(after.polarisation);
-    const Real interactions = interactions_before_.load() + Real(count) - where(!turns, one);
-    interactions_.store(interactions);
-    cosine_.store(at.cosine);
-    face_.store(Walls::face(ahead));
-    code_.store(select(stays, where(bulk, one), select(total, Real(3.0), Real(2.0))));
-    return busy_ & ~lanes_of(goes_on & (interactions < Real(limits_.interactions)));
+    return Slots::keep({stays, bulk, total, turns, ahead.plane, at.cosine}, there_time);
   }
   /// Ends a photon that pass() has returned.
-  void end(std::size_t lane) {
-    constexpr LaneEnd kEnds[] = {LaneEnd::unclear, LaneEnd::bulk, LaneEnd::boundary, LaneEnd::total};
-    const LaneEnd how = kEnds[static_cast<int>(code_.of[lane])];
-    LaneWork& photon = *photon_[lane];
-    photon.cosine = cosine_.of[lane];
-    photon.face = static_cast<std::uint32_t>(face_.of[lane]);
-    photon.interactions = interactions_.of[lane];
-    give_back(lane, how, segments_ - begun_[lane] - (how == LaneEnd::unclear ? 1 : 0));
-  }
+  void end(std::size_t lane) { give_back(lane, Slots::ending(lane)); }
   void end_unfinished() {
-    for (; busy_ != 0;) {
-      const auto lane = static_cast<std::size_t>(__builtin_ctz(busy_));
-      photon_[lane]->interactions += segments_ - begun_[lane];
-      give_back(lane, LaneEnd::unfinished, segments_ - begun_[lane]);
-    }
+    while (Slots::busy() != 0)
+      give_back(static_cast<std::size_t>(__builtin_ctz(Slots::busy())), LaneEnd::unfinished);
   }
 
  private:
+  using Slots::attenuation_;
+  using Slots::centre_;
+  using Slots::depth_;
+  using Slots::direction_;
+  using Slots::path_;
+  using Slots::position_;
+  using Slots::time_;
+  using Slots::time_per_mm_;
+
   void set(std::size_t lane, const LaneWork& photon) {
-    position_.set(lane, photon.position);
-    direction_.set(lane, photon.direction);
+    Slots::set(lane, photon);
     polarisation_.set(lane, photon.polarisation);
-    centre_.set(lane, photon.centre);
-    path_.of[lane] = photon.path_mm;
-    time_.of[lane] = photon.time_ns;
-    depth_.of[lane] = photon.depth_left;
-    group_.of[lane] = photon.group_index;
-    attenuation_.of[lane] = photon.attenuation_per_mm;
-    interactions_before_.of[lane] = photon.interactions - static_cast<double>(segments_);
     walls_.set(lane, photon);
   }
-  void give_back(std::size_t lane, LaneEnd how, std::uint32_t segments) {
-    LaneWork& photon = *photon_[lane];
-    position_.get(lane, photon.position);
+  void give_back(std::size_t lane, LaneEnd how) {
+    LaneWork& photon = Slots::release(lane, how).photon;
     direction_.get(lane, photon.direction);
     polarisation_.get(lane, photon.polarisation);
-    photon.path_mm = path_.of[lane];
-    photon.time_ns = time_.of[lane];
-    photon.depth_left = depth_.of[lane];
     walls_.get(lane, photon);
-    photon.segments = segments;
-    photon.end = how;
-    busy_ &= ~(1u << lane);
   }
 
   Walls walls_;
-  const LaneLimits limits_;
-  unsigned busy_ = 0;
-  std::uint32_t segments_ = 0;  ///< of each lane, since the beginning
-  double first_limit_ = std::numeric_limits<double>::infinity();
-  LaneWork* photon_[kWidth];
-  std::uint32_t begun_[kWidth];
-  Numbers3 position_, direction_, polarisation_, centre_;
-  Numbers path_, time_, depth_, group_, attenuation_, interactions_before_;
-  // Of photons that end.
-  Numbers interactions_, cosine_, face_, code_;
+  typename Slots::Numbers3 polarisation_;
 };
 
 /// Propagates photons in several sets of lanes in turns, so that a processor works on one of them while it

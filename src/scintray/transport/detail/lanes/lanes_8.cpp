@@ -1,4 +1,5 @@
 #include "scintray/transport/detail/lanes/lane_body_walls.hpp"
+#include "scintray/transport/detail/lanes/lane_box_set.hpp"
 #include "scintray/transport/detail/lanes/lane_flat_walls.hpp"
 #include "scintray/transport/detail/lanes/lane_passes.hpp"
 
@@ -6,7 +7,8 @@ namespace scintray::transport {
 
 void propagate_lanes_8(const LanePlanes& planes, const LaneLimits& limits, LaneWork* photons,
                        std::size_t count) {
-  propagate_between_planes<core::LaneReal<xsimd::avx512f>, 2>(planes, limits, photons, count);
+  if (planes.box) return propagate_in_box<core::LaneReal<xsimd::avx512f>>(planes, limits, photons, count);
+  propagate_between_planes<core::LaneReal<xsimd::avx512f>>(planes, limits, photons, count);
 }
 
 void propagate_lanes_in_body_8(const LaneBody& body, const LaneLimits& limits, LaneWork* photons,
