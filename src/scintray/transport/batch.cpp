@@ -12,9 +12,12 @@ namespace scintray::transport {
 
 namespace {
 
-/// Photons in flight at once: enough to fill the lanes with photons of one kind of region, few enough for the
-/// first level of the cache.
+/// Photons in flight at once, at most: enough to fill the lanes with photons of one kind of region, few
+/// enough for the first level of the cache.
 constexpr std::size_t kTravellers = 128;
+/// Those where none is propagated through total reflections alone: a few more than the pool has.
+constexpr std::size_t kPoolTravellers = 64;
+static_assert(kPoolTravellers > LanePool::kPhotons && kPoolTravellers <= kTravellers);
 
 }  // namespace
 
@@ -155,7 +158,8 @@ void Batch::Tracing::trace(std::uint64_t count, Emit emit, End end) {
   count_ = count;
   emit_ = emit;
   ends_.begin();
-  travellers_.resize(std::min<std::uint64_t>(count, kTravellers));
+  const std::size_t most = most_faces_ > 0 ? kTravellers : kPoolTravellers;
+  travellers_.resize(std::min<std::uint64_t>(count, most));
   least_sin2_.resize(travellers_.size() * most_faces_);
   ended_.clear();
   for (std::uint32_t i = 0; i < travellers_.size(); ++i) ended_.push_back(i);
