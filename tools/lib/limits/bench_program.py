@@ -18,7 +18,7 @@ FIRST_COUNTED = 2  # file of the first trace that is compared: those before it f
 KERNEL = re.compile(r'\bLane(?:Passes|Photons|Propagation|BoxSet)<|\b(?:propagate|run)_lanes_(?:in_body_)?\d')
 # What an instruction in a kernel does, by the source file of its line; all else is done for one lane after another.
 VECTORS, RANDOM, SINGLE = 'vectors', 'Philox', 'one lane'
-IN_KERNELS = ((re.compile(r'intrin\.h$|/xsimd/'), VECTORS), (re.compile(r'/philox_laws\.hpp$'), RANDOM))
+IN_KERNELS = ((re.compile(r'intrin\.h$|/xsimd/|/lane_number\.hpp$'), VECTORS), (re.compile(r'/philox_laws\.hpp$'), RANDOM))
 
 
 @dataclasses.dataclass
