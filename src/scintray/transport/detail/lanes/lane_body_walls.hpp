@@ -25,7 +25,7 @@ class LaneBodyWalls {
 
  public:
   using Number = Real;
-  static constexpr bool kEncloses = false;
+  static constexpr bool kEncloses = false;  ///< rounding may lead past all walls
   using Region = LaneBody;
   /// The nearest face so far.
   struct Ahead {
@@ -37,12 +37,6 @@ class LaneBodyWalls {
   void set(std::size_t lane, const LaneWork& photon) {
     left_.of[lane] = photon.left;
     least_sin2_[lane] = photon.least_sin2;
-  }
-  /// optics::reflect.
-  static optics::LightRay<Real> reflected(const Ahead&, const LaneArrival<Real>& at,
-                                          const optics::LightRay<Real>& light) {
-    return {core::mirrored(light.direction, at.normal, at.cosine),
-            -core::mirrored(light.polarisation, at.normal)};
   }
   void get(std::size_t lane, LaneWork& photon) const { photon.left = left_.of[lane]; }
   void leave(const Ahead& ahead) { left_.store(ahead.plane); }
@@ -91,6 +85,12 @@ class LaneBodyWalls {
     there = there + select(flat, Vector{zero, zero, zero}, round.step);
     const Vector normal = select(flat, ahead.normal, wall.outwards * round.normal);
     return {normal, dot(direction, normal), load_each<Real>(least_sin2)};
+  }
+  /// optics::reflect.
+  static optics::LightRay<Real> reflected(const Ahead&, const LaneArrival<Real>& at,
+                                          const optics::LightRay<Real>& light) {
+    return {core::mirrored(light.direction, at.normal, at.cosine),
+            -core::mirrored(light.polarisation, at.normal)};
   }
 
  private:

@@ -11,7 +11,7 @@ namespace {
 
 /// Planes of a region up to which what is needed of the nearest one is selected with it; beyond it is loaded,
 /// for each lane from a place of its own. In fewer than eight lanes, whose instruction sets have half of the
-/// registers, loading is faster (1.04 in a polished box by four).
+/// registers, loading is faster (1.04 by four in a polished box, before boxes had a kernel of their own).
 inline constexpr std::uint32_t kFewPlanes = 8;
 
 /// @tparam kFew  there are no more than kFewPlanes
@@ -22,7 +22,7 @@ class LaneFlatWalls {
 
  public:
   using Number = Real;
-  static constexpr bool kEncloses = true;
+  static constexpr bool kEncloses = true;  ///< every ray leaves through a wall
   using Region = LanePlanes;
   /// The nearest plane; where there are few with its numbers.
   struct Ahead : LaneAhead<Real> {
@@ -39,12 +39,6 @@ class LaneFlatWalls {
       least_sin2_[lane] = photon.least_sin2;
   }
   // Planes have no state in a lane.
-  /// optics::reflect.
-  static optics::LightRay<Real> reflected(const Ahead&, const LaneArrival<Real>& at,
-                                          const optics::LightRay<Real>& light) {
-    return {core::mirrored(light.direction, at.normal, at.cosine),
-            -core::mirrored(light.polarisation, at.normal)};
-  }
   void get(std::size_t, LaneWork&) const {}
   void leave(const Ahead&) {}
   void leave(const Ahead&, const Mask&) {}
@@ -55,8 +49,6 @@ class LaneFlatWalls {
     for (std::uint32_t i = planes_.opposite; i < planes_.count; ++i) take({i, i}, local, direction, ahead);
     return ahead;
   }
-  /// Whether a lane's ray leaves through no wall: never, as the planes enclose the region.
-  Mask none(const Ahead& ahead) const { return ahead.cosine < Real(0.0); }
   LaneArrival<Real> arrive(const Ahead& ahead, const Vector&, const Vector&, Vector&) const {
     if constexpr (kFew) return {ahead.normal, ahead.cosine, ahead.least_sin2};
     LaneNumbers<Real> faces;
@@ -70,6 +62,12 @@ class LaneFlatWalls {
     core::LaneFours<Real> normals;
     load_fours(planes, normals);
     return {{normals.of[0], normals.of[1], normals.of[2]}, ahead.cosine, load_each<Real>(least_sin2)};
+  }
+  /// optics::reflect.
+  static optics::LightRay<Real> reflected(const Ahead&, const LaneArrival<Real>& at,
+                                          const optics::LightRay<Real>& light) {
+    return {core::mirrored(light.direction, at.normal, at.cosine),
+            -core::mirrored(light.polarisation, at.normal)};
   }
 
  private:
