@@ -48,11 +48,18 @@ class LaneBoxSet : public LaneSlots<Real> {
     path_.store(to.path), time_.store(to.time), depth_.store(to.depth_left);
     return 0;
   }
-  /// Ends a photon that pass() has returned.
-  void end(std::size_t lane) { give_back(lane, Slots::ending(lane)); }
-  void end_unfinished() {
-    while (Slots::busy() != 0)
-      give_back(static_cast<std::size_t>(__builtin_ctz(Slots::busy())), LaneEnd::unfinished);
+  /// Takes a photon out of its lane.
+  void give_back(std::size_t lane, LaneEnd how) {
+    constexpr std::uint64_t kSign = std::uint64_t{1} << 63;
+    const auto [photon, reflections] = Slots::release(lane, how);
+    const std::uint64_t all = (reflections & 1) != 0 ? kSign : 0;
+    double direction[3];
+    direction_.get(lane, direction);
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::uint64_t changed = core::bits_of(photon.direction[axis]) ^ core::bits_of(direction[axis]);
+      photon.polarisation[axis] = core::number_of(core::bits_of(photon.polarisation[axis]) ^ changed ^ all);
+      photon.direction[axis] = direction[axis];
+    }
   }
 
  private:
@@ -124,18 +131,6 @@ class LaneBoxSet : public LaneSlots<Real> {
         total_[face].of[lane] = totally_reflected(along, least_sin2) ? -1.0 : 1.0;
         unclear_[face].of[lane] = least_sin2 > 0.5 * (kNoTotalReflection + kManyRegions) ? -1.0 : 1.0;
       }
-    }
-  }
-  void give_back(std::size_t lane, LaneEnd how) {
-    constexpr std::uint64_t kSign = std::uint64_t{1} << 63;
-    const auto [photon, reflections] = Slots::release(lane, how);
-    const std::uint64_t all = (reflections & 1) != 0 ? kSign : 0;
-    double direction[3];
-    direction_.get(lane, direction);
-    for (int axis = 0; axis < 3; ++axis) {
-      const std::uint64_t changed = core::bits_of(photon.direction[axis]) ^ core::bits_of(direction[axis]);
-      photon.polarisation[axis] = core::number_of(core::bits_of(photon.polarisation[axis]) ^ changed ^ all);
-      photon.direction[axis] = direction[axis];
     }
   }
 

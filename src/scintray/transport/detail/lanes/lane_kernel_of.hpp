@@ -21,6 +21,11 @@ class LaneSlots {
 
   /// A bit for each lane with a photon.
   unsigned busy() const { return busy_; }
+  /// The end of a photon that pass() has returned.
+  LaneEnd ending(std::size_t lane) const {
+    constexpr LaneEnd kEnds[] = {LaneEnd::unclear, LaneEnd::bulk, LaneEnd::boundary, LaneEnd::total};
+    return kEnds[static_cast<int>(code_.of[lane])];
+  }
 
  protected:
   using Mask = typename Real::Mask;
@@ -91,10 +96,6 @@ class LaneSlots {
     const Real interactions = interactions_before_.load() + Real(count());
     const Mask within = (interactions < Real(limits_.interactions)) & (there_time <= Real(limits_.time_ns));
     return busy_ & ~lanes_of(ends.turns & within);
-  }
-  LaneEnd ending(std::size_t lane) const {
-    constexpr LaneEnd kEnds[] = {LaneEnd::unclear, LaneEnd::bulk, LaneEnd::boundary, LaneEnd::total};
-    return kEnds[static_cast<int>(code_.of[lane])];
   }
 
   const LaneLimits limits_;
@@ -173,11 +174,12 @@ class LaneSet : public LaneSlots<typename Walls::Number> {
     direction_.store(after.direction), polarisation_.store(after.polarisation);
     return Slots::keep({stays, bulk, total, turns, ahead.plane, at.cosine}, there_time);
   }
-  /// Ends a photon that pass() has returned.
-  void end(std::size_t lane) { give_back(lane, Slots::ending(lane)); }
-  void end_unfinished() {
-    while (Slots::busy() != 0)
-      give_back(static_cast<std::size_t>(__builtin_ctz(Slots::busy())), LaneEnd::unfinished);
+  /// Takes a photon out of its lane.
+  void give_back(std::size_t lane, LaneEnd how) {
+    LaneWork& photon = Slots::release(lane, how).photon;
+    direction_.get(lane, photon.direction);
+    polarisation_.get(lane, photon.polarisation);
+    walls_.get(lane, photon);
   }
 
  private:
@@ -194,12 +196,6 @@ class LaneSet : public LaneSlots<typename Walls::Number> {
     Slots::set(lane, photon);
     polarisation_.set(lane, photon.polarisation);
     walls_.set(lane, photon);
-  }
-  void give_back(std::size_t lane, LaneEnd how) {
-    LaneWork& photon = Slots::release(lane, how).photon;
-    direction_.get(lane, photon.direction);
-    polarisation_.get(lane, photon.polarisation);
-    walls_.get(lane, photon);
   }
 
   Walls walls_;
@@ -241,7 +237,7 @@ class LanePropagation {
         if (set.busy() == 0) continue;
         for (unsigned ended = set.pass(); ended != 0; ended &= ended - 1) {
           const auto lane = static_cast<std::size_t>(__builtin_ctz(ended));
-          set.end(lane);
+          set.give_back(lane, set.ending(lane));
           if (next != last)
             set.fill(lane, *next++);
           else
@@ -249,7 +245,9 @@ class LanePropagation {
         }
       }
       if (hands_back && next == last && busy < kFew) {
-        for (Set& set : lanes.of) set.end_unfinished();
+        for (Set& set : lanes.of)
+          while (set.busy() != 0)
+            set.give_back(static_cast<std::size_t>(__builtin_ctz(set.busy())), LaneEnd::unfinished);
         return;
       }
     }
