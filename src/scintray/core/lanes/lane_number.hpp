@@ -10,6 +10,10 @@
 
 namespace scintray::core {
 
+/// Method of drawing random numbers: a block in each lane, or with scalar instructions for one lane after
+/// another, which is faster where vectors are short, as their products have 32 bits.
+enum class LaneDraws { in_lanes, one_by_one };
+
 template <typename Arch>
 struct LaneReal;
 template <typename Arch>

@@ -3,7 +3,7 @@
 namespace scintray::source {
 
 EmissionKernels emission_kernels_4() {
-  return EmissionKernelsOf<core::LaneRealPair<xsimd::avx2>, EmissionDraws::one_by_one>::all();
+  return EmissionKernelsOf<core::LaneRealPair<xsimd::avx2>, core::LaneDraws::one_by_one>::all();
 }
 
 }  // namespace scintray::source

@@ -3,7 +3,7 @@
 namespace scintray::source {
 
 EmissionKernels emission_kernels_8() {
-  return EmissionKernelsOf<core::LaneReal<xsimd::avx512f>, EmissionDraws::in_lanes>::all();
+  return EmissionKernelsOf<core::LaneReal<xsimd::avx512f>, core::LaneDraws::in_lanes>::all();
 }
 
 }  // namespace scintray::source

@@ -9,19 +9,15 @@
 namespace scintray::source {
 namespace {
 
-/// Method of drawing random numbers: blocks in lanes, or with scalar instructions, which are faster where
-/// vectors are short, as their products have 32 bits.
-enum class EmissionDraws { in_lanes, one_by_one };
-
 /// @tparam Real  numbers of kEmitted lanes
-template <typename Real, EmissionDraws kDraws>
+template <typename Real, core::LaneDraws kDraws>
 struct EmissionKernelsOf {
   using Bits = core::BitsOf<Real>;
   using Vector = core::Triple<Real>;
   static_assert(Real::kWidth == kEmitted);
 
   [[gnu::flatten]] static void draw(StreamLanes& streams) {
-    if constexpr (kDraws == EmissionDraws::one_by_one) return draw_one_by_one(streams);
+    if constexpr (kDraws == core::LaneDraws::one_by_one) return draw_one_by_one(streams);
     const Bits first = Bits::load(streams.counter[0]);
     const auto block = [&](const Bits& number) {
       return core::PhiloxBlock<Bits>(

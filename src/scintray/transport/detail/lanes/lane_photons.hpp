@@ -11,11 +11,8 @@ namespace scintray::transport {
 
 namespace {
 
+using core::LaneDraws;
 using core::LaneFours;
-
-/// Method of drawing random numbers: a block in each lane, or with scalar instructions only for lanes that
-/// lack numbers, which is faster where vectors are short, as their products have 32 bits.
-enum class LaneDraws { in_lanes, one_by_one };
 
 /// @tparam kOneWavelength  LanePool::one_wavelength
 template <typename Real, LaneDraws kDraws, bool kOneWavelength>
