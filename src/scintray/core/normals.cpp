@@ -45,7 +45,11 @@ void sample_normals(Rng& rng, std::span<double> deviates, int lane_width) {
                 deviates.begin() + static_cast<std::ptrdiff_t>(next));
     }
   }
-  for (; next < deviates.size(); ++next) deviates[next] = sample_normal(rng);
+  for (; next < deviates.size(); next += 2) {
+    const IndependentPair<double> pair = sample_normal_pair(rng);
+    deviates[next] = pair.first;
+    if (next + 1 < deviates.size()) deviates[next + 1] = pair.second;
+  }
 }
 
 }  // namespace scintray::core

@@ -8,7 +8,8 @@
 
 namespace scintray::core {
 
-/// Standard normal deviates: those of as many calls of sample_normal(), to the last bit.
+/// Standard normal deviates: those of sample_normal_pair() one after the other, to the last bit; of an odd
+/// number of them, the second of the last pair is left out.
 /// @param lane_width  deviates computed at once, of lane_widths()
 void sample_normals(Rng& rng, std::span<double> deviates, int lane_width = default_lane_width());
 

@@ -25,10 +25,18 @@ Triple<Real> lambertian(const Triple<Real>& normal, const Real& sine2, const Rea
          root(Real(1.0) - sine2) * normal;
 }
 
-/// Standard normal deviate (Box and Muller 1958), from a number uniform on (0, 1] and one uniform on [0, 1).
+/// Two independent numbers.
 template <typename Real>
-Real normal_deviate(const Real& for_radius, const Real& turn) {
-  return root(Real(-2.0) * laws::log<Real>(for_radius)) * laws::sincos_of_turn<Real>(turn).cosine;
+struct IndependentPair {
+  Real first, second;
+};
+
+/// Standard normal deviates (Box and Muller 1958), from a number uniform on (0, 1] and one uniform on [0, 1).
+template <typename Real>
+IndependentPair<Real> normal_deviates(const Real& for_radius, const Real& turn) {
+  const Real radius = root(Real(-2.0) * laws::log<Real>(for_radius));
+  const SineCosineOf<Real> azimuth = laws::sincos_of_turn<Real>(turn);
+  return {radius * azimuth.cosine, radius * azimuth.sine};
 }
 
 /// A point of the unit circle, uniform in angle, without trigonometry, from 64 random bits: twice the angle

@@ -64,7 +64,8 @@ void PulseShape::check_stages(double mean_ns, double squares) {
     throw core::InternalError("a pulse of more stages than there is room for");
   const auto [slowest, fastest] = std::minmax_element(rate_per_ns_.begin(), rate_per_ns_.end());
   fastest_per_ns_ = *fastest;
-  for (const double rate : rate_per_ns_) share_of_fastest_.push_back(rate / fastest_per_ns_);
+  for (std::size_t i = 0; i < rate_per_ns_.size(); ++i)
+    share_of_fastest_[i] = rate_per_ns_[i] / fastest_per_ns_;
   // The tail falls no slower than its longest stage; each stage delays it by no more than a few times its
   // own.
   duration_ns_ = mean_ns - std::log(kTail) / *slowest + 3.0 * std::sqrt(squares);
@@ -76,21 +77,19 @@ void PulseShape::check_stages(double mean_ns, double squares) {
 }
 
 void PulseShape::tabulate() {
-  State state = impulse();
+  State<> state = impulse();
   for (std::size_t i = 0; i < kGrid; ++i) {
     grid_.push_back(state);
     pass(state, period_ns_ / kGrid);
   }
   for (std::size_t i = 0; i < rate_per_ns_.size(); ++i) {
-    State unit{};
-    unit[i] = 1.0;
-    pass(unit, period_ns_);
-    per_step_.push_back(unit);
+    per_step_[i][i] = 1.0;
+    pass(per_step_[i], period_ns_);
   }
 }
 
-PulseShape::State PulseShape::impulse() const {
-  State state{};
+PulseShape::State<> PulseShape::impulse() const {
+  State<> state{};
   state[0] = rate_per_ns_[0];
   return state;
 }
@@ -98,6 +97,8 @@ PulseShape::State PulseShape::impulse() const {
 template <class Act>
 void PulseShape::for_stages(const Act& act) const {
   switch (rate_per_ns_.size()) {
+    case 1:
+      return act(std::integral_constant<std::size_t, 1>());
     case 2:
       return act(std::integral_constant<std::size_t, 2>());
     case 3:
@@ -109,47 +110,47 @@ void PulseShape::for_stages(const Act& act) const {
     case 6:
       return act(std::integral_constant<std::size_t, 6>());
     default:
-      return act(rate_per_ns_.size());
+      return act(std::integral_constant<std::size_t, kMostStages>());
   }
 }
 
 /// Multiplies the state with exp(A t), whose generator is bidiagonal: d state_i / dt = rate_i (state_(i-1)
 /// - state_i). With the fastest rate r and P = 1 + A / r, which has no negative entry, the exponential is
 /// the sum over m of exp(-r t) (r t)^m / m! P^m.
-void PulseShape::pass(State& state, double time_ns) const {
-  for_stages([&](auto stages) {
-    for (double left = fastest_per_ns_ * time_ns; left > 0.0;) {
-      const double piece = std::min(left, kLongestPiece);
-      left -= piece;
-      State term = state, sum{};
-      double weight = std::exp(-piece);
-      for (double m = 1.0; weight > 1e-20 || m < piece; m += 1.0) {
-        for (std::size_t i = 0; i < stages; ++i) sum[i] += weight * term[i];
-        for (std::size_t i = stages; i-- > 0;)
-          term[i] += share_of_fastest_[i] * ((i > 0 ? term[i - 1] : 0.0) - term[i]);
-        weight *= piece / m;
-      }
-      state = sum;
+template <std::size_t kStages>
+void PulseShape::pass(State<kStages>& state, double time_ns) const {
+  for (double left = fastest_per_ns_ * time_ns; left > 0.0;) {
+    const double piece = std::min(left, kLongestPiece);
+    left -= piece;
+    State<kStages> term = state, sum{};
+    double weight = std::exp(-piece);
+    for (double m = 1.0; weight > 1e-20 || m < piece; m += 1.0) {
+      for (std::size_t i = 0; i < kStages; ++i) sum[i] += weight * term[i];
+      for (std::size_t i = kStages; i-- > 0;)
+        term[i] += share_of_fastest_[i] * ((i > 0 ? term[i - 1] : 0.0) - term[i]);
+      weight *= piece / m;
     }
-  });
+    state = sum;
+  }
 }
 
-void PulseShape::step(State& state) const {
-  for_stages([&](auto stages) {
-    // The last stage first: each depends on those before it alone.
-    for (std::size_t to = stages; to-- > 0;) {
-      double passed = 0.0;
-      for (std::size_t from = 0; from <= to; ++from) passed += state[from] * per_step_[from][to];
-      state[to] = passed;
-    }
-  });
+template <std::size_t kStages>
+void PulseShape::step(State<kStages>& state) const {
+  // The last stage first: each depends on those before it alone.
+  for (std::size_t to = kStages; to-- > 0;) {
+    double passed = 0.0;
+    for (std::size_t from = 0; from <= to; ++from) passed += state[from] * per_step_[from][to];
+    state[to] = passed;
+  }
 }
 
-PulseShape::State PulseShape::after(double time_ns) const {
+template <std::size_t kStages>
+PulseShape::State<kStages> PulseShape::after(double time_ns) const {
   const double periods = std::floor(time_ns / period_ns_);
   const double rest_ns = std::max(0.0, time_ns - periods * period_ns_);
   const auto before = std::min(static_cast<std::size_t>(rest_ns / period_ns_ * kGrid), kGrid - 1);
-  State state = grid_[before];
+  State<kStages> state;
+  std::copy_n(grid_[before].begin(), kStages, state.begin());
   pass(state, rest_ns - static_cast<double>(before) * period_ns_ / kGrid);
   const auto steps = static_cast<std::uint64_t>(periods);
   for (std::uint64_t i = 0; i < steps; ++i) step(state);
@@ -157,11 +158,11 @@ PulseShape::State PulseShape::after(double time_ns) const {
 }
 
 double PulseShape::value(double time_ns) const {
-  return time_ns < 0.0 ? 0.0 : scale_ * after(time_ns)[rate_per_ns_.size() - 1];
+  return time_ns < 0.0 ? 0.0 : scale_ * after<kMostStages>(time_ns)[rate_per_ns_.size() - 1];
 }
 
 /// Charge in the stages, which is still to come out: each holds its output over its rate.
-double PulseShape::held(const State& state) const {
+double PulseShape::held(std::span<const double> state) const {
   double sum = 0.0;
   for (std::size_t i = 0; i < rate_per_ns_.size(); ++i) sum += state[i] / rate_per_ns_[i];
   return sum;
@@ -175,33 +176,39 @@ std::vector<double> PulseShape::waveform(std::span<const Avalanche> avalanches, 
 
 std::vector<double> PulseShape::waveform(std::span<const Avalanche> avalanches, double start_ns,
                                          std::size_t samples, GateIntegral& gate) const {
-  const std::size_t stages = rate_per_ns_.size();
   std::vector<double> waveform(samples, 0.0);
-  State state{};
+  for_stages([&](auto stages) { add_pulses<stages>(avalanches, start_ns, waveform, gate); });
+  return waveform;
+}
+
+template <std::size_t kStages>
+void PulseShape::add_pulses(std::span<const Avalanche> avalanches, double start_ns,
+                            std::span<double> waveform, GateIntegral& gate) const {
+  const auto samples = static_cast<std::ptrdiff_t>(waveform.size());
+  State<kStages> state{};
   auto next = std::lower_bound(avalanches.begin(), avalanches.end(), start_ns - duration_ns_,
                                [](const Avalanche& a, double time_ns) { return a.time_ns < time_ns; });
   const double early_ns = next == avalanches.end() ? 0.0 : std::max(0.0, start_ns - next->time_ns);
   const auto early = static_cast<std::ptrdiff_t>(std::ceil(early_ns / period_ns_));
   const auto first = static_cast<std::ptrdiff_t>(gate.first), past = static_cast<std::ptrdiff_t>(gate.past);
   // One step beyond the last sample ends the period of that sample.
-  const std::ptrdiff_t end = std::max(static_cast<std::ptrdiff_t>(samples), past + 1);
+  const std::ptrdiff_t end = std::max(samples, past + 1);
   bool silent = true;    // nothing is in the stages yet
   double arrived = 0.0;  // charge up to the present sample, the charge held at the gate's start included
   for (std::ptrdiff_t i = -early; i < end; ++i) {
     if (!silent) step(state);
     const double now_ns = start_ns + static_cast<double>(i) * period_ns_;
     for (; next != avalanches.end() && next->time_ns <= now_ns; ++next) {
-      const State pulse = after(now_ns - next->time_ns);
-      for (std::size_t stage = 0; stage < stages; ++stage) state[stage] += next->charge * pulse[stage];
+      const State<kStages> pulse = after<kStages>(now_ns - next->time_ns);
+      for (std::size_t stage = 0; stage < kStages; ++stage) state[stage] += next->charge * pulse[stage];
       arrived += next->charge;
       silent = false;
     }
     if (i == first) arrived = held(state);
     if (i == past) gate.integral_ns = scale_ * (arrived - held(state));
-    if (i >= 0 && i < static_cast<std::ptrdiff_t>(samples))
-      waveform[static_cast<std::size_t>(i)] = scale_ * state[stages - 1];
+    if (i >= 0 && i < samples)
+      waveform[static_cast<std::size_t>(i)] = scale_ * state[rate_per_ns_.size() - 1];
   }
-  return waveform;
 }
 
 }  // namespace scintray::detector

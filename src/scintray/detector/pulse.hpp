@@ -59,25 +59,32 @@ class PulseShape {
                                GateIntegral& gate) const;
 
  private:
-  /// Outputs of the stages.
-  using State = std::array<double, kMostStages>;
+  /// Outputs of the stages, or of so many that they are among them: those beyond are 0.
+  template <std::size_t kStages = kMostStages>
+  using State = std::array<double, kStages>;
   void check_stages(double mean_ns, double squares);
   void tabulate();
-  State impulse() const;
-  void pass(State& state, double time_ns) const;
-  void step(State& state) const;  ///< by one period
-  /// Calls act(number of stages), which for the usual numbers is a constant: loops of known length.
+  State<> impulse() const;
+  template <std::size_t kStages>
+  void pass(State<kStages>& state, double time_ns) const;
+  template <std::size_t kStages>
+  void step(State<kStages>& state) const;  ///< by one period
+  template <std::size_t kStages>
+  State<kStages> after(double time_ns) const;
+  template <std::size_t kStages>
+  void add_pulses(std::span<const Avalanche> avalanches, double start_ns, std::span<double> waveform,
+                  GateIntegral& gate) const;
+  /// Calls act(constant), of the usual number of stages or of the most there can be: loops of known length.
   template <class Act>
   void for_stages(const Act& act) const;
-  State after(double time_ns) const;
-  double held(const State& state) const;
+  double held(std::span<const double> state) const;
 
-  std::vector<double> rate_per_ns_;       ///< of each stage
-  std::vector<double> share_of_fastest_;  ///< likewise, over the greatest of them
+  std::vector<double> rate_per_ns_;  ///< of each stage
+  State<> share_of_fastest_{};       ///< likewise, over the greatest of them; 0 beyond the last
   double fastest_per_ns_ = 0.0;
   double period_ns_, scale_ = 1.0, duration_ns_ = 0.0;
-  std::vector<State> grid_;      ///< an avalanche's state at equal fractions of a period
-  std::vector<State> per_step_;  ///< state one period after stage i alone was 1
+  std::vector<State<>> grid_;                    ///< an avalanche's state at equal fractions of a period
+  std::array<State<>, kMostStages> per_step_{};  ///< state one period after stage i alone was 1
 };
 
 /// Digitised waveform (photoelectrons): white noise is added to each sample, and samples are rounded to the

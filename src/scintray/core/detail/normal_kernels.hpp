@@ -11,7 +11,8 @@ namespace scintray::core {
 struct NormalLanes {
   static constexpr std::size_t kLeft = 8;     ///< numbers that may be left of earlier blocks
   static constexpr std::size_t kBlocks = 16;  ///< drawn, each of four numbers
-  static constexpr std::size_t kDeviates = 2 * kBlocks;
+  static constexpr std::size_t kPairs = 2 * kBlocks;
+  static constexpr std::size_t kDeviates = 2 * kPairs;
 
   std::uint64_t counter[4], key[2];  ///< Philox's, of the first block
   std::size_t left = 0;              ///< these are the last of the first kLeft numbers

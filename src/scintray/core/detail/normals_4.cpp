@@ -2,6 +2,8 @@
 
 namespace scintray::core {
 
-void draw_normals_4(NormalLanes& lanes) { draw_normals<LaneRealPair<xsimd::avx2>>(lanes); }
+void draw_normals_4(NormalLanes& lanes) {
+  draw_normals<LaneRealPair<xsimd::avx2>, LaneDraws::one_by_one>(lanes);
+}
 
 }  // namespace scintray::core

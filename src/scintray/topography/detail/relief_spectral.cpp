@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "scintray/core/normals.hpp"
+#include "scintray/core/sampling.hpp"
 #include "scintray/topography/detail/fourier.hpp"
 #include "scintray/topography/detail/relief.hpp"
 
@@ -20,7 +20,7 @@ using Density = std::function<double(double fx, double fy)>;
 std::vector<double> realisation(const SynthesisRecipe& recipe, ReliefPart part, const Density& density) {
   core::Rng rng = relief_random(recipe, part);
   std::vector<double> noise(std::size_t{recipe.columns} * recipe.rows);
-  core::sample_normals(rng, noise);
+  for (double& deviate : noise) deviate = core::sample_normal(rng);
   HalfSpectrum spectrum = fourier_transform(noise, recipe.columns, recipe.rows);
   for (std::uint32_t l = 0; l < recipe.rows; ++l)
     for (std::uint32_t k = 0; k < spectrum.kept(); ++k) {
