@@ -30,14 +30,20 @@ TEST_CASE("A curve interpolates linearly and keeps its end values outside") {
 
 TEST_CASE("A curve of any number of points interpolates between the two about each abscissa") {
   Rng rng(1, StreamKind::other, 0);
-  for (std::size_t points = 2; points <= 33; ++points) {
+  for (std::size_t number = 4; number <= 67; ++number) {
+    const std::size_t points = number / 2;
+    const double decades = number % 2 == 0 ? 0.0 : 6.0;  // of the distances between points
     std::vector<double> x{0.0}, y{rng.uniform()};
-    while (x.size() < points) x.push_back(x.back() + 0.1 + rng.uniform()), y.push_back(rng.uniform());
+    while (x.size() < points) {
+      x.push_back(x.back() + (0.1 + rng.uniform()) * std::pow(10.0, decades * rng.uniform()));
+      y.push_back(rng.uniform());
+    }
     const Curve curve(x, y);
     for (std::size_t i = 1; i < points; ++i)
       for (const double at : {x[i - 1], std::nextafter(x[i - 1], x[i]), 0.3 * x[i - 1] + 0.7 * x[i],
                               std::nextafter(x[i], x[i - 1])}) {
         CAPTURE(points);
+        CAPTURE(decades);
         CAPTURE(i);
         const double share = (at - x[i - 1]) / (x[i] - x[i - 1]);
         CHECK(curve(at) == (at == x.front() ? y.front() : y[i - 1] + share * (y[i] - y[i - 1])));

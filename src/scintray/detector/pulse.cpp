@@ -158,7 +158,10 @@ PulseShape::State<kStages> PulseShape::after(double time_ns) const {
 }
 
 double PulseShape::value(double time_ns) const {
-  return time_ns < 0.0 ? 0.0 : scale_ * after<kMostStages>(time_ns)[rate_per_ns_.size() - 1];
+  if (time_ns < 0.0) return 0.0;
+  double last = 0.0;
+  for_stages([&](auto stages) { last = after<stages>(time_ns)[rate_per_ns_.size() - 1]; });
+  return scale_ * last;
 }
 
 /// Charge in the stages, which is still to come out: each holds its output over its rate.

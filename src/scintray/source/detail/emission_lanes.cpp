@@ -28,11 +28,15 @@ core::PlainVec3 vec(const double (&from)[3][kEmitted], std::size_t i) {
 EmissionLanes::EmissionLanes(int lane_width) : kernels_(kernels_of(lane_width)) {}
 
 void EmissionLanes::begin(Photons photons) const {
-  StreamLanes streams{};
+  StreamLanes streams;  // NOLINT(cppcoreguidelines-pro-type-member-init): of all lanes below
   std::uint64_t unused[core::Rng::kDrawn];
   for (std::size_t i = 0; i < kEmitted; ++i) {
-    streams.numbers[i] = unused;
-    if (i >= photons.size()) continue;
+    if (i >= photons.size()) {
+      for (auto& of_lanes : streams.counter) of_lanes[i] = 0;
+      for (auto& of_lanes : streams.key) of_lanes[i] = 0;
+      streams.numbers[i] = unused;
+      continue;
+    }
     photons[i]->photon = {};
     core::Rng& rng = photons[i]->rng;
     for (std::size_t k = 0; k < 4; ++k) streams.counter[k][i] = rng.counter()[k];
