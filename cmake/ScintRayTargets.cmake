@@ -24,6 +24,8 @@ target_compile_options(scintray_options INTERFACE
   $<BUILD_INTERFACE:-ffp-contract=off>
   # Nothing here asks errno about a square root.
   $<BUILD_INTERFACE:-fno-math-errno>
+  # No other library replaces a function of this one.
+  $<BUILD_INTERFACE:-fno-semantic-interposition>
   $<BUILD_INTERFACE:$<$<BOOL:${SCINTRAY_WERROR}>:-Werror>>)
 if(SCINTRAY_SANITIZE STREQUAL "address")
   # Of undefined behaviour, what the address sanitizer does not find by itself: tests of each pointer before it is used
