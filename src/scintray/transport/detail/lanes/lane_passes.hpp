@@ -57,7 +57,7 @@ class LanePasses : LaneSurfaces<Real, kDraws, kOneWavelength> {
   /// pool.
   static constexpr int kManyLanes = static_cast<int>(kWidth) * 3 / 4;
   /// The scalar code is called when as many photons wait for it: handing over each alone would take longer.
-  static constexpr int kManyWait = 8;
+  static constexpr int kManyWait = 16;
 
  public:
   explicit LanePasses(LanePool& pool) : Surfaces(pool) {}
