@@ -61,7 +61,7 @@ ROWS = [
     Row("block", "block.toml", [], ["--photons", "40000"]),
     Row("million_triangles", "ball.toml", [("subdivisions = 224", "subdivisions = 100")],
         ["--photons", "20000"]),
-    Row("gamma_array", "gamma.toml", [], ["--events", "40"]),
+    Row("gamma_array", "gamma.toml", [], ["--events", "200"]),
 ]
 
 
@@ -114,6 +114,7 @@ class Measured:
     segments: int
     seconds: float  # of tracing alone
     peak_MB: float  # the most resident memory of the whole run, building and results included
+    process_s: float  # processor time of that
 
 
 # A process counts the memory of the one that it was forked from, so that a small one starts the program.
@@ -122,7 +123,7 @@ import os, sys
 nowhere = (os.POSIX_SPAWN_OPEN, 1, os.devnull, os.O_WRONLY, 0)
 process = os.posix_spawnp(sys.argv[1], sys.argv[1:], os.environ, file_actions=[nowhere])
 _, status, usage = os.wait4(process, 0)
-print(usage.ru_maxrss)
+print(usage.ru_maxrss, usage.ru_utime + usage.ru_stime)
 sys.exit(1 if status else 0)
 """
 
@@ -143,8 +144,9 @@ def run(program, tree, scene, options, folder):
                           capture_output=True, text=True, env=environment, check=False)
     if done.returncode != 0:
         raise Refused(" ".join(done.stderr.split())[:160])
-    peak_MB = int(done.stdout) * 1024 / 1e6
+    peak_kiB, process_s = map(float, done.stdout.split())
     with h5py.File(output) as file:
         points = file["points"].values()
         return Measured(sum(int(numpy.ravel(point["segments"])[0]) for point in points),
-                        sum(float(numpy.ravel(point["wall_seconds"])[0]) for point in points), peak_MB)
+                        sum(float(numpy.ravel(point["wall_seconds"])[0]) for point in points), peak_kiB * 1024 / 1e6,
+                        process_s)

@@ -29,10 +29,12 @@ class Counts:
     loads: float = 0.0
     stores: float = 0.0
     mispredicted: float = 0.0
+    code_misses: float = 0.0  # lines of code that were not in the first-level cache
 
     @classmethod
     def of(cls, events):
-        return cls(events.get('Ir', 0), events.get('Dr', 0), events.get('Dw', 0), events.get('Bcm', 0) + events.get('Bim', 0))
+        return cls(events.get('Ir', 0), events.get('Dr', 0), events.get('Dw', 0), events.get('Bcm', 0) + events.get('Bim', 0),
+                   events.get('I1mr', 0))
 
     def __add__(self, other):
         return Counts(*(a + b for a, b in zip(dataclasses.astuple(self), dataclasses.astuple(other))))

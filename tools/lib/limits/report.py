@@ -54,9 +54,9 @@ def table_of_counts(measured):
     for figures in measured:
         counts, whole = figures.counts, figures.counts.whole
         lines.append([figures.row.scene, number(counts.segments_per_photon, 1), number(whole.instructions), number(whole.loads),
-                      number(whole.stores), number(whole.mispredicted, 2), number(counts.kernels.instructions),
+                      number(whole.stores), number(whole.mispredicted, 2), number(whole.code_misses, 2), number(counts.kernels.instructions),
                       *(number(counts.by_kind[kind].instructions if kind in counts.by_kind else 0) for kind in kinds)])
-    return table(['scene', 'segments a photon', 'instructions', 'loads', 'stores', 'wrong predictions', 'kernels', *kinds], lines)
+    return table(['scene', 'segments a photon', 'instructions', 'loads', 'stores', 'wrong predictions', 'code misses', 'kernels', *kinds], lines)
 
 
 def has_kernels(counts):
