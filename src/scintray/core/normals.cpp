@@ -1,7 +1,6 @@
 #include "scintray/core/normals.hpp"
 
 #include "scintray/core/detail/normal_kernels.hpp"
-#include "scintray/core/sampling.hpp"
 
 namespace scintray::core {
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "scintray/core/elementary.hpp"
+#include "scintray/core/normals.hpp"
 #include "scintray/core/philox.hpp"
 #include "scintray/core/sampling_laws.hpp"
 #include "scintray/core/vec.hpp"
@@ -44,15 +45,6 @@ inline Vec3 sample_polarisation(const Vec3& direction, Rng& rng) {
 
 /// Exponential deviate with mean 1.
 inline double sample_exponential(Rng& rng) { return -log(rng.uniform_positive()); }
-
-/// Two independent standard normal deviates.
-inline IndependentPair<double> sample_normal_pair(Rng& rng) {
-  const double for_radius = rng.uniform_positive();
-  return normal_deviates<double>(for_radius, rng.uniform());
-}
-
-/// Standard normal deviate.
-inline double sample_normal(Rng& rng) { return sample_normal_pair(rng).first; }
 
 /// Gamma deviate with mean 1 and standard deviation `spread` above 0 (G. Marsaglia and W. W. Tsang 2000,
 /// ACM Trans. Math. Softw. 26, 363; shapes below 1 as in its section 6).

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "scintray/core/sampling.hpp"
+#include "scintray/core/normals.hpp"
 #include "scintray/topography/detail/fourier.hpp"
 #include "scintray/topography/detail/relief.hpp"
 
