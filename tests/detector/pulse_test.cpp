@@ -94,22 +94,26 @@ TEST_CASE("the area is the integral, and what is left after the duration is less
 }
 
 TEST_CASE("a waveform is the sum of its avalanches' pulses, at every sample") {
-  const PulseShape pulse({9.0, 0.7, 2.0, 2.0}, 0.8);
   Rng rng = event_stream(0);
   std::vector<Avalanche> avalanches;
   for (double t = -60.0; t < 90.0; t += 5.0 * sample_exponential(rng))
     avalanches.push_back({t, 0.2 + rng.uniform(), AvalancheCause::photon});
   avalanches.push_back({100.0, 3.0, AvalancheCause::photon});  // on a sample
   const double start_ns = -20.0;
-  const std::vector<double> waveform = pulse.waveform(avalanches, start_ns, 200);
-  REQUIRE(waveform.size() == 200);
-  for (std::size_t i = 0; i < waveform.size(); ++i) {
-    const double t = start_ns + 0.8 * static_cast<double>(i);
-    double sum = 0.0;
-    for (const Avalanche& avalanche : avalanches)
-      sum += avalanche.charge * pulse.value(t - avalanche.time_ns);
-    CAPTURE(i);
-    CHECK(std::abs(waveform[i] - sum) < 1e-11);
+  for (const std::vector<double>& stages :
+       {std::vector{9.0}, {9.0, 0.7, 2.0, 2.0}, {9.0, 0.7, 2.0, 2.0, 2.0, 2.0, 2.0, 1.0}}) {
+    CAPTURE(stages.size());
+    const PulseShape pulse(stages, 0.8);
+    const std::vector<double> waveform = pulse.waveform(avalanches, start_ns, 200);
+    REQUIRE(waveform.size() == 200);
+    for (std::size_t i = 0; i < waveform.size(); ++i) {
+      const double t = start_ns + 0.8 * static_cast<double>(i);
+      double sum = 0.0;
+      for (const Avalanche& avalanche : avalanches)
+        sum += avalanche.charge * pulse.value(t - avalanche.time_ns);
+      CAPTURE(i);
+      CHECK(std::abs(waveform[i] - sum) < 1e-11);
+    }
   }
 }
 
