@@ -138,7 +138,7 @@ TEST_CASE("many normal deviates at once are those drawn in pairs, to the last bi
     CAPTURE(width);
     for (int drawn = 0; drawn < 9; ++drawn) {  // before, so that blocks are begun
       CAPTURE(drawn);
-      for (const std::size_t size : {0, 1, 2, 63, 64, 65, 66, 550}) {
+      for (const std::size_t size : {0, 1, 2, 31, 32, 33, 63, 64, 65, 66, 550}) {
         CAPTURE(size);
         Rng together(3, StreamKind::sensor, 4, size), alone = together;
         for (int i = 0; i < drawn; ++i) CHECK(together.bits() == alone.bits());
