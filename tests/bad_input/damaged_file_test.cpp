@@ -5,7 +5,7 @@
 
 #include "bad_input/good_scene.hpp"
 #include "bad_input/marked_text.hpp"
-#include "scintray/core/philox.hpp"
+#include "scintray/core/rng.hpp"
 #include "scintray/scene/build_scene.hpp"
 #include "scintray/scene_file/read_scene.hpp"
 #include "support/shared.hpp"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "scintray/core/error.hpp"
-#include "scintray/core/philox.hpp"
+#include "scintray/core/rng.hpp"
 #include "scintray/core/statistics.hpp"
 
 using namespace scintray;

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "scintray/core/philox.hpp"
+#include "scintray/core/rng.hpp"
 
 using namespace scintray::core;
 

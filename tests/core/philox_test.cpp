@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "scintray/core/philox.hpp"
+#include "scintray/core/rng.hpp"
 
 using namespace scintray;
 using namespace scintray::core;

@@ -33,7 +33,7 @@
 #include "mutate.hpp"
 #include "own_entries.hpp"
 #include "scintray/core/child_process.hpp"
-#include "scintray/core/philox.hpp"
+#include "scintray/core/rng.hpp"
 
 namespace {
 

@@ -10,7 +10,7 @@
 #include "detector_entries.hpp"
 #include "geometry_entries.hpp"
 #include "mutate.hpp"
-#include "scintray/core/philox.hpp"
+#include "scintray/core/rng.hpp"
 #include "watched_run.hpp"
 
 using namespace scintray;

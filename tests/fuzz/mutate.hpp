@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "scintray/core/philox.hpp"
+#include "scintray/core/rng.hpp"
 
 namespace scintray::fuzz {
 

@@ -7,7 +7,7 @@
 #include "corpus.hpp"
 #include "mutate.hpp"
 #include "own_entries.hpp"
-#include "scintray/core/philox.hpp"
+#include "scintray/core/rng.hpp"
 #include "watched_run.hpp"
 
 using namespace scintray;

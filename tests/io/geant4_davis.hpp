@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "scintray/core/philox.hpp"
+#include "scintray/core/rng.hpp"
 #include "scintray/core/vec.hpp"
 
 namespace scintray::test {

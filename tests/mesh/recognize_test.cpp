@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scintray/core/philox.hpp"
+#include "scintray/core/rng.hpp"
 #include "scintray/mesh/export/triangle_files.hpp"
 #include "scintray/mesh/import/import.hpp"
 #include "scintray/mesh/shapes/primitives.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "scintray/core/philox.hpp"
+#include "scintray/core/rng.hpp"
 #include "scintray/mesh/export/triangle_files.hpp"
 #include "scintray/mesh/import/import.hpp"
 #include "scintray/mesh/recognize.hpp"

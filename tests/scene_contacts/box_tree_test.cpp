@@ -4,7 +4,7 @@
 
 #include <doctest/doctest.h>
 
-#include "scintray/core/philox.hpp"
+#include "scintray/core/rng.hpp"
 
 using namespace scintray;
 using namespace scintray::core;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "scintray/core/philox.hpp"
+#include "scintray/core/rng.hpp"
 #include "shapes.hpp"
 
 using namespace scintray;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <functional>
 
-#include "scintray/core/philox.hpp"
+#include "scintray/core/rng.hpp"
 #include "scintray/core/vec.hpp"
 #include "scintray/topography/detail/fourier.hpp"
 #include "scintray/topography/height_map.hpp"

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "scintray/core/philox.hpp"
+#include "scintray/core/rng.hpp"
 
 namespace scintray::core {
 

@@ -6,40 +6,33 @@ namespace scintray::core {
 
 namespace {
 
-DrawNormals kernel_of(int lane_width) {
+SetNormals kernel_of(int lane_width) {
   switch (lane_width) {
 #if defined(__x86_64__)
     case 4:
-      return draw_normals_4;
+      return set_normals_4;
     case 8:
-      return draw_normals_8;
+      return set_normals_8;
 #endif
     default:
       return nullptr;
   }
 }
 
-/// Draws as many deviates as a kernel does, and sets the stream to behind them.
-void draw(DrawNormals kernel, Rng& rng, NormalLanes& lanes) {
-  static_assert(NormalLanes::kLeft == Rng::kDrawn);
-  std::copy(rng.drawn().begin(), rng.drawn().end(), lanes.numbers);
-  std::copy(rng.counter().begin(), rng.counter().end(), lanes.counter);
-  std::copy(rng.key().begin(), rng.key().end(), lanes.key);
-  lanes.left = rng.ahead().size();
-  kernel(lanes);
-  Rng::Numbers last;
-  std::copy(std::end(lanes.numbers) - Rng::kDrawn, std::end(lanes.numbers), last.begin());
-  rng.skip_blocks(NormalLanes::kBlocks, last);
-}
-
 }  // namespace
 
 void sample_normals(Rng& rng, std::span<double> deviates, int lane_width) {
   std::size_t next = 0;
-  if (const DrawNormals kernel = kernel_of(lane_width)) {
-    NormalLanes lanes;  // NOLINT(cppcoreguidelines-pro-type-member-init): draw() sets what the kernel reads
+  if (const SetNormals kernel = kernel_of(lane_width)) {
+    NormalLanes lanes;  // NOLINT(cppcoreguidelines-pro-type-member-init): set below
     for (; deviates.size() - next >= NormalLanes::kDeviates; next += NormalLanes::kDeviates) {
-      draw(kernel, rng, lanes);
+      Rng stream = rng;  // in registers
+      for (std::size_t i = 0; i < NormalLanes::kPairs; ++i) {
+        lanes.for_radius[i] = stream.bits();
+        lanes.turn[i] = stream.bits();
+      }
+      rng = stream;
+      kernel(lanes);
       std::copy(std::begin(lanes.deviates), std::end(lanes.deviates),
                 deviates.begin() + static_cast<std::ptrdiff_t>(next));
     }

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "scintray/core/lane_width.hpp"
-#include "scintray/core/philox.hpp"
+#include "scintray/core/rng.hpp"
 #include "scintray/core/sampling_laws.hpp"
 
 namespace scintray::core {

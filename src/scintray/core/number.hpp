@@ -48,6 +48,12 @@ using BitsOf = typename NumberTypes<Real>::Bits;
   return number_of(bits_of(x) & ~(std::uint64_t{1} << 63));
 }
 
+/// The bits moved to the left, those that leave at the left entering at the right.
+template <int kCount>
+[[gnu::always_inline]] inline constexpr std::uint64_t rotated(std::uint64_t bits) {
+  return std::rotl(bits, kCount);
+}
+
 /// 1 with the sign of x.
 template <typename Real>
 Real sign_of(const Real& x) {

@@ -6,7 +6,7 @@
 
 #include "scintray/core/elementary.hpp"
 #include "scintray/core/normals.hpp"
-#include "scintray/core/philox.hpp"
+#include "scintray/core/rng.hpp"
 #include "scintray/core/sampling_laws.hpp"
 #include "scintray/core/vec.hpp"
 

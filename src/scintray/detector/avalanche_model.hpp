@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "scintray/core/function_ref.hpp"
-#include "scintray/core/philox.hpp"
+#include "scintray/core/rng.hpp"
 #include "scintray/core/shared.hpp"
 #include "scintray/detector/avalanche.hpp"
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "scintray/core/philox.hpp"
+#include "scintray/core/rng.hpp"
 #include "scintray/detector/avalanche.hpp"
 #include "scintray/detector/readout_spec.hpp"
 

@@ -170,7 +170,7 @@ SurfaceOutcome ThinFilmSurface::scatter(Ray& ray, Side side, const IndexPair& in
   core::Rng& rng = interaction.rng;
   for (;;) {
     const core::Vec3 against = side == Side::inside ? core::Vec3(-interaction.normal) : interaction.normal;
-    const core::Vec3 facet = facets_.sample_facet(ray.direction, core::Frame::about(against), rng);
+    const core::Vec3 facet = facets_.sample_facet(ray.direction, against, rng);
     const Ray before = ray;
     switch (interact(ray, side, facet, index, interaction)) {
       case FilmOutcome::reflected:
@@ -196,8 +196,7 @@ SurfaceOutcome MetalSurface::scatter(Ray& ray, Side side, const IndexPair& index
   const FacetSurface::Lobe lobe = facets.sample_lobe(rng);
   const bool at_facets = lobe == FacetSurface::Lobe::facet;
   for (;;) {
-    const core::Vec3 facet =
-        at_facets ? facets.sample_facet(ray.direction, core::Frame::about(against), rng) : against;
+    const core::Vec3 facet = at_facets ? facets.sample_facet(ray.direction, against, rng) : against;
     const Ray before = ray;
     if (metal) {
       const FilmResponse response = film_response(std::clamp(-ray.direction.dot(facet), 0.0, 1.0), n1, {},

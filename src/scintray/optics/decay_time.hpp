@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "scintray/core/philox.hpp"
+#include "scintray/core/rng.hpp"
 
 namespace scintray::optics {
 

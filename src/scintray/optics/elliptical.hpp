@@ -9,7 +9,7 @@
 
 #include <complex>
 
-#include "scintray/core/philox.hpp"
+#include "scintray/core/rng.hpp"
 #include "scintray/core/vec.hpp"
 #include "scintray/optics/fresnel.hpp"
 

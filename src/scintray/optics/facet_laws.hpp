@@ -4,6 +4,7 @@
 /// random numbers, results and bits. Sources: facets.hpp.
 
 #include "scintray/core/elementary_laws.hpp"
+#include "scintray/core/xoroshiro.hpp"
 
 namespace scintray::optics {
 
@@ -48,34 +49,38 @@ struct FacetNumbers {
   core::MaskOf<Real> by_area;   ///< facets are weighted by their projected area
 };
 
-/// An attempt to draw a facet.
+/// The numbers of an attempt to draw a facet, uniform on [0, 1).
+template <typename Real>
+struct FacetRandom {
+  Real tilt;  ///< above 0, to 1
+  Real azimuth, acceptance;
+
+  explicit FacetRandom(core::Xoroshiro<core::BitsOf<Real>>& stream)
+      : tilt(core::uniform_positive_of<Real>(stream.next())),
+        azimuth(core::uniform_of<Real>(stream.next())),
+        acceptance(core::uniform_of<Real>(stream.next())) {}
+};
+
+/// An attempt to draw a facet: its angle by the Rayleigh density g(alpha) alpha, of which g(alpha) sin(alpha)
+/// accepts sin(alpha) / alpha, and the share of its projected area.
 template <typename Real>
 struct FacetDraw {
   core::Triple<Real> normal;
   core::MaskOf<Real> accepted;
-  Real drawn;  ///< random numbers used
 
-  struct Random {
-    Real tilt;  ///< above 0
-    Real for_tilt, azimuth, for_area;
-  };
   /// @param k  direction of the light; @param mean  mean normal, against it
   FacetDraw(const FacetNumbers<Real>& of, const core::Triple<Real>& k, const core::Triple<Real>& mean,
-            const Random& random) {
+            const FacetRandom<Real>& random) {
     const Real angle = facet_angle<Real>(of.sigma_rad, random.tilt);
     const core::SineCosineOf<Real> tilt = core::laws::sincos<Real>(angle);
     const core::SineCosineOf<Real> azimuth = core::laws::sincos_of_turn<Real>(random.azimuth);
     normal = facet_normal<Real>(tilt, azimuth, core::Across<Real>(mean), mean);
     const Real facing = -dot(k, normal);
-    // In the order of the numbers: each is drawn where those before are accepted.
-    const core::MaskOf<Real> below = angle < Real(kQuarterTurn_rad);
-    const core::MaskOf<Real> tilted = below & (random.for_tilt * angle <= tilt.sine);
-    const core::MaskOf<Real> turned = tilted & !(of.by_area & (angle > of.widest_rad));
-    const core::MaskOf<Real> seen = turned & (facing > Real(0.0));
-    const Real bound = greatest_facing<Real>(-dot(k, mean), {of.sin_widest, of.cos_widest});
-    accepted = seen & !(of.by_area & (random.for_area * bound > facing));
-    const Real one(1.0), zero(0.0);
-    drawn = one + select(below, one, zero) + select(turned, one, zero) + select(seen & of.by_area, one, zero);
+    const core::MaskOf<Real> possible =
+        (angle < Real(kQuarterTurn_rad)) & (facing > Real(0.0)) & !(of.by_area & (angle > of.widest_rad));
+    const Real one(1.0), bound = greatest_facing<Real>(-dot(k, mean), {of.sin_widest, of.cos_widest});
+    const Real weight = tilt.sine * select(of.by_area, facing, one);
+    accepted = possible & (random.acceptance * (angle * select(of.by_area, bound, one)) <= weight);
   }
 };
 

@@ -53,58 +53,48 @@ class FacetSurface : public MicrosurfaceModel {
                          SurfaceInteraction& interaction) const override;
   bool birefringent() const override { return true; }
 
-  /// Normal of a random facet that faces a ray of direction k, within 90 deg of `frame.z`; of a smeared
+  /// Normal of a random facet that faces a ray of direction k, within 90 deg of the mean normal; of a smeared
   /// facet also beyond.
-  core::Vec3 sample_facet(const core::Vec3& k, const core::Frame& frame, core::Rng& rng) const;
+  core::Vec3 sample_facet(const core::Vec3& k, const core::Vec3& mean, core::Rng& rng) const;
   Lobe sample_lobe(core::Rng& rng) const;
   /// Replaces a specular reflection at a facet by the chosen lobe. `before` is the incident ray.
   static void apply_lobe(Lobe chosen, Ray& ray, const Ray& before, const core::Vec3& against, core::Rng& rng);
 
  private:
-  /// Angle between facet and mean normal.
-  struct FacetTilt {
-    double angle_rad;
-    core::SineCosine of;  ///< its sine and cosine
-  };
-  /// Tilt of a facet, drawn at random, below 90 deg.
-  FacetTilt sample_facet_tilt(core::Rng& rng) const;
+  core::Vec3 sample_facet_by_polar_angle(const core::Vec3& k, const core::Vec3& mean, core::Rng& rng) const;
   core::Vec3 sample_smeared_facet(const core::Vec3& k, const core::Vec3& mean, core::Rng& rng) const;
 };
 
-inline FacetSurface::FacetTilt FacetSurface::sample_facet_tilt(core::Rng& rng) const {
-  const double sigma = sigma_alpha_rad;
+inline core::Vec3 FacetSurface::sample_facet(const core::Vec3& k, const core::Vec3& mean,
+                                             core::Rng& rng) const {
+  if (smear > 0.0) [[unlikely]]
+    return sample_smeared_facet(k, mean, rng);
+  if (sigma_alpha_rad == 0.0) return mean;
+  if (definition == SigmaAlphaDefinition::polar_angle) [[unlikely]]
+    return sample_facet_by_polar_angle(k, mean, rng);
+  const FacetLimits limits(sigma_alpha_rad, sampling == FacetSampling::projected_area);
+  const FacetNumbers<double> numbers{sigma_alpha_rad, limits.widest_rad, limits.of_widest.sine,
+                                     limits.of_widest.cosine, limits.by_area};
+  core::Rng::State stream = rng.state();
   for (;;) {
-    if (definition == SigmaAlphaDefinition::polar_angle) [[unlikely]] {
-      const double alpha = std::abs(sigma * core::sample_normal(rng));
-      if (alpha < 0.5 * core::kPi) return {alpha, core::sincos(alpha)};
-      continue;
-    }
-    // g(alpha) sin(alpha) from the Rayleigh density g(alpha) alpha by accepting sin(alpha)/alpha.
-    const double alpha = facet_angle<double>(sigma, rng.uniform_positive());
-    if (!(alpha < 0.5 * core::kPi)) continue;
-    const core::SineCosine of = core::sincos(alpha);
-    if (rng.uniform() * alpha <= of.sine) return {alpha, of};
+    const FacetDraw<double> facet(numbers, core::triple(k), core::triple(mean), FacetRandom<double>(stream));
+    if (!facet.accepted) continue;
+    rng.go_on_from(stream);
+    return core::vec(facet.normal);
   }
 }
 
-inline core::Vec3 FacetSurface::sample_facet(const core::Vec3& k, const core::Frame& frame,
-                                             core::Rng& rng) const {
-  if (smear > 0.0) [[unlikely]]
-    return sample_smeared_facet(k, frame.z, rng);
-  if (sigma_alpha_rad == 0.0) return frame.z;
-  const FacetLimits limits(sigma_alpha_rad, sampling == FacetSampling::projected_area);
-  const double bound = limits.by_area ? greatest_facing<double>(-k.dot(frame.z), limits.of_widest) : 1.0;
-  const core::Across<double> across(core::triple(frame.x), core::triple(frame.y));
-  const core::Triple<double> mean = core::triple(frame.z);
+inline core::Vec3 FacetSurface::sample_facet_by_polar_angle(const core::Vec3& k, const core::Vec3& mean,
+                                                            core::Rng& rng) const {
+  const bool by_area = sampling == FacetSampling::projected_area;
+  const core::Across<double> across(core::triple(mean));
   for (;;) {
-    const auto [alpha, tilt] = sample_facet_tilt(rng);
-    if (limits.by_area && alpha > limits.widest_rad) continue;
-    const core::Vec3 m =
-        core::vec(facet_normal<double>(tilt, core::sincos_of_turn(rng.uniform()), across, mean));
+    const double alpha = std::abs(sigma_alpha_rad * core::sample_normal(rng));
+    if (!(alpha < 0.5 * core::kPi)) continue;
+    const core::Vec3 m = core::vec(facet_normal<double>(
+        core::sincos(alpha), core::sincos_of_turn(rng.uniform()), across, core::triple(mean)));
     const double facing = -k.dot(m);
-    if (facing <= 0.0) continue;
-    if (limits.by_area && rng.uniform() * bound > facing) continue;
-    return m;
+    if (facing > 0.0 && (!by_area || rng.uniform() <= facing)) return m;
   }
 }
 
@@ -158,7 +148,7 @@ inline Side FacetSurface::scatter(Ray& ray, Side side, const core::Vec3& normal,
                                   core::Rng& rng) const {
   for (;;) {
     const core::Vec3 against = side == Side::inside ? core::Vec3(-normal) : normal;
-    const core::Vec3 facet = sample_facet(ray.direction, core::Frame::about(against), rng);
+    const core::Vec3 facet = sample_facet(ray.direction, against, rng);
     const Ray before = ray;
     if (interact_at_facet(ray, facet, index, side, rng))
       side = other(side);

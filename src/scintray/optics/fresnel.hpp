@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "scintray/core/philox.hpp"
 #include "scintray/core/plain_vec.hpp"
+#include "scintray/core/rng.hpp"
 #include "scintray/core/sampling.hpp"
 #include "scintray/core/vec.hpp"
 #include "scintray/optics/fresnel_laws.hpp"

@@ -10,7 +10,7 @@ namespace scintray::optics {
 
 namespace {
 
-/// A number is drawn only where both kinds occur.
+/// Whether transmitted light goes on as in a smooth face. A number is drawn only where both kinds occur.
 bool is_specular(const Reflector& reflector, core::Rng& rng) {
   const double share = reflector.specular_share;
   return share >= 1.0 || (share > 0.0 && rng.uniform() < share);
@@ -90,7 +90,7 @@ SheetOutcome interact_at_reflector(const Reflector& reflector, Ray& ray, const S
     return u < shares.reflectance + shares.transmittance ? pass(reflector, ray, side, rng)
                                                          : SheetOutcome::absorbed;
   if (log) log->add(reflector, shares.reflectance);
-  if (is_specular(reflector, rng))
+  if (u < shares.reflectance * reflector.specular_share)
     reflect(ray, side.normal);
   else if (reflector.polarisation == PaintPolarisation::geant4)
     scatter_as_geant4(ray, side.normal, rng);

@@ -190,10 +190,11 @@ SurfaceTable::BetweenWavelengths SurfaceTable::between_wavelengths(double wavele
           (wavelength_nm - low) / (high - low)};
 }
 
-std::size_t SurfaceTable::pick_slice(double lateral_azimuth, double wavelength_nm, core::Rng& rng) const {
+std::size_t SurfaceTable::pick_slice(double lateral_azimuth, double wavelength_nm, double for_wavelength,
+                                     core::Rng& rng) const {
   const BetweenWavelengths between = between_wavelengths(wavelength_nm);
   std::size_t spectral = between.first;
-  if (between.to_next && rng.uniform() < *between.to_next) ++spectral;
+  if (between.to_next && for_wavelength < *between.to_next) ++spectral;
   std::size_t azimuth = 0;
   if (azimuths_ > 1) {
     const double turns = lateral_azimuth / core::kTwoPi;
@@ -218,6 +219,7 @@ SurfaceOutcome SurfaceTable::interact(Ray& ray, Side side, const core::Vec3& nor
       sine > kNoIncidencePlane ? core::Vec3(lateral / sine) : core::sample_polarisation(normal, rng);
   const core::Vec3 across = normal.cross(forward);
 
+  const double for_wavelength = rng.uniform();  // also where there is one, as in lanes
   std::size_t slice = 0;
   if (slices_.size() > 1) {
     double azimuth = 0.0;
@@ -225,7 +227,7 @@ SurfaceOutcome SurfaceTable::interact(Ray& ray, Side side, const core::Vec3& nor
       const core::Frame map = map_frame(normal, along, rng);
       azimuth = std::atan2(forward.dot(map.y), forward.dot(map.x));
     }
-    slice = pick_slice(azimuth, wavelength_nm, rng);
+    slice = pick_slice(azimuth, wavelength_nm, for_wavelength, rng);
   }
   const auto leave = [&](Side after, double sin_polar, double cos_polar, double sin_azimuth,
                          double cos_azimuth) {

@@ -111,7 +111,8 @@ class SurfaceTable : public MicrosurfaceModel {
  private:
   /// Wavelengths and azimuths of the slices; throws InputError when they do not form a grid.
   void check_grid();
-  std::size_t pick_slice(double lateral_azimuth, double wavelength_nm, core::Rng& rng) const;
+  std::size_t pick_slice(double lateral_azimuth, double wavelength_nm, double for_wavelength,
+                         core::Rng& rng) const;
 
   std::vector<TableSlice> slices_;
   /// Two per slice: from inside, from outside.

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "scintray/core/philox.hpp"
+#include "scintray/core/rng.hpp"
 #include "scintray/optics/table_laws.hpp"
 #include "scintray/optics/table_nodes.hpp"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "scintray/core/curve.hpp"
-#include "scintray/core/philox.hpp"
+#include "scintray/core/rng.hpp"
 #include "scintray/core/units.hpp"
 #include "scintray/optics/decay_time.hpp"
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "scintray/core/philox.hpp"
+#include "scintray/core/rng.hpp"
 #include "scintray/optics/decay_time.hpp"
 #include "scintray/simulation/response_map.hpp"
 

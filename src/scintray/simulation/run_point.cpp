@@ -101,15 +101,8 @@ double ConversionDraws::at(std::uint64_t event, std::uint64_t photon) {
   return core::Rng::to_uniform(numbers_[photon % kNumbers]);
 }
 
-void start_photon_stream(const RunSettings& settings, std::uint64_t event, std::uint64_t photon,
-                         core::Rng& stream) {
-  stream.restart(settings.seed, core::StreamKind::photon, event, photon, settings.point);
-}
-
 core::Rng photon_stream(const RunSettings& settings, std::uint64_t event, std::uint64_t photon) {
-  core::Rng stream(settings.seed, core::StreamKind::photon, event);
-  start_photon_stream(settings, event, photon, stream);
-  return stream;
+  return core::Rng(settings.seed, core::StreamKind::photon, event, photon, settings.point);
 }
 
 core::Rng event_stream(const RunSettings& settings, std::uint64_t event) {

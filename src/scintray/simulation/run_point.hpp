@@ -48,9 +48,6 @@ struct RunHooks {
 
 /// The random stream of one photon of a run.
 core::Rng photon_stream(const RunSettings& settings, std::uint64_t event, std::uint64_t photon);
-/// Makes a stream that one, in place.
-void start_photon_stream(const RunSettings& settings, std::uint64_t event, std::uint64_t photon,
-                         core::Rng& stream);
 /// The random stream of an event before its first photon.
 core::Rng event_stream(const RunSettings& settings, std::uint64_t event);
 

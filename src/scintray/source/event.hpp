@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "scintray/core/philox.hpp"
+#include "scintray/core/rng.hpp"
 #include "scintray/scene/scene.hpp"
 #include "scintray/scene_file/gamma_source.hpp"
 

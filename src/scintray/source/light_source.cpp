@@ -174,8 +174,10 @@ void PhotonSource::emit_together(const scene::Scene& scene, const EventLight& li
   const EmissionLanes lanes(lane_width);
   if (!is_isotropic() || !lanes.take(photons.size()))
     return LightSource::emit_together(scene, light, photons, lane_width);
-  lanes.begin(photons);
-  for (EmittedPhoton* const emitted : photons) set_place(scene, emitted->photon, emitted->rng);
+  for (EmittedPhoton* const emitted : photons) {
+    emitted->photon = {};
+    set_place(scene, emitted->photon, emitted->rng);
+  }
   lanes.emit_isotropic(photons, unpolarised_);
   for (EmittedPhoton* const emitted : photons) set_colour(scene, emitted->photon, emitted->rng);
   lanes.draw_depths(photons);

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "scintray/core/error.hpp"
-#include "scintray/core/philox.hpp"
+#include "scintray/core/rng.hpp"
 
 namespace scintray::tables {
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "scintray/core/error.hpp"
-#include "scintray/core/philox.hpp"
+#include "scintray/core/rng.hpp"
 #include "scintray/core/text.hpp"
 
 namespace scintray::tables {

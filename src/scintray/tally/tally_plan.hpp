@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "scintray/core/philox.hpp"
+#include "scintray/core/rng.hpp"
 #include "scintray/detector/channel.hpp"
 #include "scintray/scene/scene.hpp"
 #include "scintray/scene_file/spec.hpp"

@@ -89,7 +89,7 @@ class Batch::Tracing {
   }
   LaneKind kind_of(const Traveller& traveller) const {
     const LaneKind kind = lanes_.kind(traveller.photon.region);
-    const bool taken = kind != LaneKind::surfaces || surface_lanes_.takes(traveller.photon, traveller.rng);
+    const bool taken = kind != LaneKind::surfaces || surface_lanes_.takes(traveller.photon);
     return taken ? kind : LaneKind::none;
   }
   void enqueue(std::uint32_t traveller);
@@ -186,7 +186,6 @@ void Batch::Tracing::start() {
                                                 ended_.end());
     for (std::size_t i = 0; i < count; ++i) starting[i] = &travellers_[places[i]];
     emit_(next_, {starting, count});
-    if (next_ == 0) surface_lanes_.begin(starting[0]->rng);
     for (const std::uint32_t place : places) {
       Traveller& traveller = travellers_[place];
       ends_.expect(next_);

@@ -7,7 +7,7 @@
 #include <type_traits>
 
 #include "scintray/core/function_ref.hpp"
-#include "scintray/core/philox.hpp"
+#include "scintray/core/rng.hpp"
 #include "scintray/core/step_event.hpp"
 #include "scintray/scene/scene.hpp"
 #include "scintray/source/light_source.hpp"

@@ -7,24 +7,19 @@
 
 namespace scintray::core {
 
-/// Deviates from successive numbers of a stream.
+/// Pairs of deviates.
 struct NormalLanes {
-  static constexpr std::size_t kLeft = 8;     ///< numbers that may be left of earlier blocks
-  static constexpr std::size_t kBlocks = 16;  ///< drawn, each of four numbers
-  static constexpr std::size_t kPairs = 2 * kBlocks;
-  static constexpr std::size_t kDeviates = 2 * kPairs;
+  static constexpr std::size_t kPairs = 32, kDeviates = 2 * kPairs;
 
-  std::uint64_t counter[4], key[2];  ///< Philox's, of the first block
-  std::size_t left = 0;              ///< these are the last of the first kLeft numbers
-  alignas(64) std::uint64_t numbers[kLeft + 4 * kBlocks];
+  alignas(64) std::uint64_t for_radius[kPairs], turn[kPairs];  ///< the random bits of each pair
   alignas(64) double deviates[kDeviates];
 };
 
-/// Draws the blocks, and sets the deviates from the numbers that are left and those after them.
-using DrawNormals = void (*)(NormalLanes&);
+/// Sets the deviates.
+using SetNormals = void (*)(NormalLanes&);
 
 // Defined where its instruction set is compiled.
-void draw_normals_4(NormalLanes&);
-void draw_normals_8(NormalLanes&);
+void set_normals_4(NormalLanes&);
+void set_normals_8(NormalLanes&);
 
 }  // namespace scintray::core

@@ -2,8 +2,6 @@
 
 namespace scintray::core {
 
-void draw_normals_4(NormalLanes& lanes) {
-  draw_normals<LaneRealPair<xsimd::avx2>, LaneDraws::one_by_one>(lanes);
-}
+void set_normals_4(NormalLanes& lanes) { set_normals<LaneRealPair<xsimd::avx2>>(lanes); }
 
 }  // namespace scintray::core

@@ -2,8 +2,6 @@
 
 namespace scintray::core {
 
-void draw_normals_8(NormalLanes& lanes) {
-  draw_normals<LaneReal<xsimd::avx512f>, LaneDraws::in_lanes>(lanes);
-}
+void set_normals_8(NormalLanes& lanes) { set_normals<LaneReal<xsimd::avx512f>>(lanes); }
 
 }  // namespace scintray::core

@@ -6,13 +6,8 @@
 #include <xsimd/xsimd.hpp>
 
 #include "scintray/core/number.hpp"
-#include "scintray/core/philox_laws.hpp"
 
 namespace scintray::core {
-
-/// Method of drawing random numbers: a block in each lane, or with scalar instructions for one lane after
-/// another, which is faster where vectors are short, as their products have 32 bits.
-enum class LaneDraws { in_lanes, one_by_one };
 
 template <typename Arch>
 struct LaneReal;
@@ -123,13 +118,22 @@ struct LaneMask {
   friend bool all(const LaneMask& a) { return xsimd::all(a.lanes); }
 };
 
-/// Products of the lower 32 bits of each lane.
-static inline __m128i low_products(__m128i a, __m128i b) { return _mm_mul_epu32(a, b); }
+// As core::rotated.
+template <int kCount>
+static inline __m128i rotated_lanes(__m128i bits) {
+  return _mm_or_si128(_mm_slli_epi64(bits, kCount), _mm_srli_epi64(bits, 64 - kCount));
+}
 #ifdef __AVX2__
-static inline __m256i low_products(__m256i a, __m256i b) { return _mm256_mul_epu32(a, b); }
+template <int kCount>
+static inline __m256i rotated_lanes(__m256i bits) {
+  return _mm256_or_si256(_mm256_slli_epi64(bits, kCount), _mm256_srli_epi64(bits, 64 - kCount));
+}
 #endif
 #ifdef __AVX512F__
-static inline __m512i low_products(__m512i a, __m512i b) { return _mm512_mul_epu32(a, b); }
+template <int kCount>
+static inline __m512i rotated_lanes(__m512i bits) {
+  return _mm512_rol_epi64(bits, kCount);
+}
 #endif
 
 /// 64 bits in each lane.
@@ -163,17 +167,12 @@ struct LaneBits {
     const LaneReal<Arch> lower = number_of((whole & LaneBits(0xffffffffULL)) | LaneBits(bits_of(0x1.0p52)));
     return (upper - LaneReal<Arch>(0x1.00000001p84)) + lower;
   }
-  /// By four products of 32 bits.
-  friend WideProduct<LaneBits> wide_product(const LaneBits& a, const LaneBits& b) {
-    const LaneBits mask(0xffffffffULL), a_upper = a >> 32, b_upper = b >> 32;
-    const auto product = [](const LaneBits& x, const LaneBits& y) {
-      return LaneBits(Lanes(low_products(x.lanes, y.lanes)));
-    };
-    const LaneBits low = product(a, b), first = product(a_upper, b) + (low >> 32);
-    const LaneBits second = product(a, b_upper) + (first & mask);
-    return {product(a_upper, b_upper) + (first >> 32) + (second >> 32), (second << 32) | (low & mask)};
-  }
 };
+
+template <int kCount, typename Arch>
+LaneBits<Arch> rotated(const LaneBits<Arch>& bits) {
+  return typename LaneBits<Arch>::Lanes(rotated_lanes<kCount>(bits.lanes));
+}
 
 /// A double in each lane.
 template <typename Arch>
@@ -286,11 +285,12 @@ struct LaneBitsPair {
   friend LaneBitsPair operator>>(const LaneBitsPair& x, int count) { return {x.a >> count, x.b >> count}; }
   friend LaneRealPair<Arch> number_of(const LaneBitsPair& x) { return {number_of(x.a), number_of(x.b)}; }
   friend LaneRealPair<Arch> value_of(const LaneBitsPair& x) { return {value_of(x.a), value_of(x.b)}; }
-  friend WideProduct<LaneBitsPair> wide_product(const LaneBitsPair& x, const LaneBitsPair& y) {
-    const WideProduct<One> first = wide_product(x.a, y.a), second = wide_product(x.b, y.b);
-    return {{first.high, second.high}, {first.low, second.low}};
-  }
 };
+
+template <int kCount, typename Arch>
+LaneBitsPair<Arch> rotated(const LaneBitsPair<Arch>& x) {
+  return {rotated<kCount>(x.a), rotated<kCount>(x.b)};
+}
 
 /// A double in each lane.
 template <typename Arch>

@@ -123,7 +123,7 @@ void BlockTracer::trace_photons(std::vector<Address>& photons, const source::Eve
   const auto emit = [&](std::uint64_t first, std::span<source::EmittedPhoton* const> emitted) {
     for (std::size_t i = 0; i < emitted.size(); ++i) {
       emitted[i]->number = photons[first + i].photon;
-      start_photon_stream(settings_, photons[first + i].event, emitted[i]->number, emitted[i]->rng);
+      emitted[i]->rng = photon_stream(settings_, photons[first + i].event, emitted[i]->number);
     }
     source_.emit_together(scene_, light, emitted, lanes_.width());
     for (std::size_t i = 0; i < emitted.size(); ++i)

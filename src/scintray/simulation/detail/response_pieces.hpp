@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "scintray/core/philox.hpp"
+#include "scintray/core/rng.hpp"
 #include "scintray/simulation/response_map.hpp"
 
 namespace scintray::simulation {

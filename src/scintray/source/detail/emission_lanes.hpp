@@ -18,11 +18,10 @@ class EmissionLanes {
   /// @param lane_width  photons at once; 1 and 2: photons are emitted one by one
   explicit EmissionLanes(int lane_width);
   /// False when so many photons have to be emitted one by one.
-  bool take(std::size_t photons) const { return kernels_.draw && photons <= kEmitted; }
+  bool take(std::size_t photons) const { return kernels_.emit && photons <= kEmitted; }
 
-  /// Resets the photons, and draws the first numbers of each stream, of which none are drawn yet.
-  void begin(Photons photons) const;
-  /// Sets direction and polarisation of light that is emitted in all directions alike.
+  /// Sets direction and polarisation of light, of one photon or more, that is emitted in all directions
+  /// alike.
   void emit_isotropic(Photons photons, bool unpolarised) const;
   /// Sets the optical depths.
   void draw_depths(Photons photons) const;

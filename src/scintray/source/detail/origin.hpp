@@ -5,7 +5,7 @@
 #include <variant>
 #include <vector>
 
-#include "scintray/core/philox.hpp"
+#include "scintray/core/rng.hpp"
 #include "scintray/scene/scene.hpp"
 #include "scintray/scene_file/spec.hpp"
 

@@ -254,7 +254,7 @@ void ScintillationSource::emit_together(const scene::Scene& scene, const EventLi
     causes[i] = cause_of(scene, light, photons[i]->number);
     if (causes[i].deposit->step) return LightSource::emit_together(scene, light, photons, lane_width);
   }
-  lanes.begin(photons);
+  for (EmittedPhoton* const emitted : photons) emitted->photon = {};
   lanes.emit_isotropic(photons, unpolarised_);
   for (std::size_t i = 0; i < photons.size(); ++i) {
     Photon& photon = photons[i]->photon;

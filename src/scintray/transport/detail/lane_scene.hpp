@@ -150,13 +150,9 @@ class SurfaceLanes {
   SurfaceLanes(const scene::Scene& scene, const LaneScene& lanes, const PropagationLimits& limits,
                RunLanes kernel);
 
-  /// To be called before photons are entered into empty lanes.
-  /// @param first  a stream of random numbers with the key of those whose photons are to be taken
-  void begin(const core::Rng& first);
-  /// Whether a photon in a region of LaneKind::surfaces can be entered: all have one seed, and in scenes of
-  /// one wavelength one wavelength.
-  bool takes(const source::Photon& photon, const core::Rng& rng) const {
-    if (rng.key() != key_) return false;
+  /// Whether a photon in a region of LaneKind::surfaces can be entered: in scenes of one wavelength all have
+  /// that one.
+  bool takes(const source::Photon& photon) const {
     if (pool_.one_wavelength && photon.wavelength_nm != at_first_.wavelength_nm) return false;
     const scene::Region& region = scene_.regions[photon.region];
     return !region.thin_gaps || lane_scene_.face_at_gap(region, photon.on_triangle).has_value();
@@ -180,10 +176,6 @@ class SurfaceLanes {
   Step finish(const Left& left, source::Photon& photon, core::Rng& rng);
 
  private:
-  /// Puts a photon's random stream into the pool.
-  static void give_numbers(const core::Rng& rng, LanePhoton& to);
-  /// Sets a random stream to where the pool has drawn up to.
-  static void take_numbers(const LanePhoton& from, core::Rng& rng);
   const LaneRecord* optics_at(double wavelength_nm, std::uint32_t slot);
   Step step_at_end(const Left& left, source::Photon& photon, core::Rng& rng) const;
 
@@ -191,7 +183,6 @@ class SurfaceLanes {
   PropagationLimits limits_;
   RunLanes run_;
   const LaneScene& lane_scene_;
-  std::array<std::uint64_t, 2> key_{};        ///< of the random numbers of all photons
   LaneScene::AtWavelength at_first_;          ///< of the first photon
   std::vector<LaneScene::AtWavelength> own_;  ///< by slot, of photons of other wavelengths
   LanePool pool_;

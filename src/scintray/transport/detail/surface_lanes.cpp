@@ -44,11 +44,6 @@ SurfaceLanes::SurfaceLanes(const scene::Scene& scene, const LaneScene& lanes, co
   for (std::uint32_t slot = LanePool::kPhotons; slot-- > 0;) free_.push_back(slot);
 }
 
-void SurfaceLanes::begin(const core::Rng& first) {
-  key_ = first.key();
-  pool_.keys = core::PhiloxKeys<std::uint64_t>(key_[0], key_[1]);
-}
-
 void SurfaceLanes::enter(std::uint32_t name, const source::Photon& photon, const core::Rng& rng) {
   const std::uint32_t slot = free_.back();
   free_.pop_back();
@@ -64,7 +59,8 @@ void SurfaceLanes::enter(std::uint32_t name, const source::Photon& photon, const
   entered.plane = at_gap ? *lane_scene_.face_at_gap(scene_.regions[photon.region], photon.on_triangle) : 0.0;
   pool_.in_state[static_cast<std::size_t>(at_gap ? lane_state::kAcross : lane_state::kPropagate)] |=
       std::uint64_t{1} << slot;
-  give_numbers(rng, entered);
+  entered.stream[0] = rng.state().first;
+  entered.stream[1] = rng.state().second;
 }
 
 const LaneRecord* SurfaceLanes::optics_at(double wavelength_nm, std::uint32_t slot) {
@@ -99,7 +95,7 @@ Step SurfaceLanes::finish(const Left& left, source::Photon& photon, core::Rng& r
   photon.on_triangle = from.region.has_gaps != 0
                            ? lane_scene_.triangle(region, static_cast<std::size_t>(from.plane))
                            : scene::kNoTriangle;
-  take_numbers(from, rng);
+  rng.go_on_from({from.stream[0], from.stream[1]});
   free_.push_back(left.slot);
   return left.waiting_as == lane_state::kUnclear ? step(scene_, photon, rng, limits_)
                                                  : step_at_end(left, photon, rng);
@@ -123,22 +119,6 @@ Step SurfaceLanes::step_at_end(const Left& left, source::Photon& photon, core::R
   propagation.end = PropagationEnd::boundary;
   propagation.triangle = at.triangle;
   return end_of_step(scene_, propagation, photon, rng, nullptr);
-}
-
-void SurfaceLanes::give_numbers(const core::Rng& rng, LanePhoton& to) {
-  to.drawn = rng.position();
-  to.next_block = rng.counter()[0];
-  for (std::size_t i = 0; i < 3; ++i) to.counter[i] = rng.counter()[i + 1];
-  for (std::size_t block = (core::Rng::kDrawn - rng.ahead().size()) / 4; block < 2; ++block) {
-    const std::size_t first = 4 * (to.next_block + block - 2) % LanePhoton::kNumbers;
-    for (std::size_t i = 0; i < 4; ++i) to.numbers[first + i] = rng.drawn()[4 * block + i];
-    if (first > 0) continue;
-    for (std::size_t i = 0; i < 4; ++i) to.numbers[LanePhoton::kNumbers + i] = rng.drawn()[4 * block + i];
-  }
-}
-
-void SurfaceLanes::take_numbers(const LanePhoton& from, core::Rng& rng) {
-  rng.go_on_at(from.drawn, from.numbers + from.drawn / 4 * 4 % LanePhoton::kNumbers);
 }
 
 }  // namespace scintray::transport

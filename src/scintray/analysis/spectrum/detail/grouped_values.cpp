@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "scintray/core/in_order.hpp"
-#include "scintray/core/philox.hpp"
+#include "scintray/core/rng.hpp"
 #include "scintray/core/statistics.hpp"
 
 namespace scintray::analysis {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "scintray/core/curve.hpp"
-#include "scintray/core/philox.hpp"
+#include "scintray/core/rng.hpp"
 #include "scintray/scene_file/gamma_source.hpp"
 
 namespace scintray::source {

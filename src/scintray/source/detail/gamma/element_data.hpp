@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "scintray/core/constants.hpp"
-#include "scintray/core/philox.hpp"
+#include "scintray/core/rng.hpp"
 
 namespace scintray::source {
 

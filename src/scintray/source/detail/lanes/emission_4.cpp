@@ -2,8 +2,6 @@
 
 namespace scintray::source {
 
-EmissionKernels emission_kernels_4() {
-  return EmissionKernelsOf<core::LaneRealPair<xsimd::avx2>, core::LaneDraws::one_by_one>::all();
-}
+EmissionKernels emission_kernels_4() { return EmissionKernelsOf<core::LaneRealPair<xsimd::avx2>>::all(); }
 
 }  // namespace scintray::source

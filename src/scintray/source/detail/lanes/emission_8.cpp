@@ -2,8 +2,6 @@
 
 namespace scintray::source {
 
-EmissionKernels emission_kernels_8() {
-  return EmissionKernelsOf<core::LaneReal<xsimd::avx512f>, core::LaneDraws::in_lanes>::all();
-}
+EmissionKernels emission_kernels_8() { return EmissionKernelsOf<core::LaneReal<xsimd::avx512f>>::all(); }
 
 }  // namespace scintray::source

@@ -1,5 +1,5 @@
 #pragma once
-/// Random numbers, directions and optical depths of photons that are emitted together, in the lanes of vector
+/// Directions, polarisations and optical depths of photons that are emitted together, in the lanes of vector
 /// registers.
 ///
 /// This header has only plain data: it is included by files that are compiled for instruction sets which not
@@ -14,19 +14,15 @@ namespace scintray::source {
 /// Photons that are emitted together, each at one index of every array.
 inline constexpr std::size_t kEmitted = 8;
 
-/// Streams of random numbers, and where the numbers of their next two blocks go.
-struct StreamLanes {
-  alignas(64) std::uint64_t counter[4][kEmitted];
-  alignas(64) std::uint64_t key[2][kEmitted];
-  std::uint64_t* numbers[kEmitted];
-};
 /// Light emitted in all directions alike.
 struct LightLanes {
-  const double* numbers[kEmitted];  ///< the bits of four random numbers of each photon
+  alignas(
+      64) std::uint64_t state[2][kEmitted];  ///< of the streams of random numbers; afterwards those behind
+  bool polarised;                            ///< polarisations are drawn
   // Results.
   alignas(64) double direction[3][kEmitted];
   alignas(64) double polarisation[3][kEmitted];
-  alignas(64) double tried[kEmitted];  ///< numbers that the polarisation took: 1 or 2; 3: neither served
+  alignas(64) double has_polarisation[kEmitted];  ///< 0: another number has to be tried
 };
 /// Optical depths, exponential with mean 1.
 struct DepthLanes {
@@ -36,7 +32,6 @@ struct DepthLanes {
 
 /// Null where there are none for a width.
 struct EmissionKernels {
-  void (*draw)(StreamLanes&) = nullptr;
   void (*emit)(LightLanes&) = nullptr;
   void (*draw_depths)(DepthLanes&) = nullptr;
 };

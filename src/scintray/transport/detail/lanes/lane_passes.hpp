@@ -14,9 +14,9 @@
 namespace scintray::transport {
 namespace {
 
-template <typename Real, LaneDraws kDraws, bool kOneWavelength>
-class LanePasses : LaneSurfaces<Real, kDraws, kOneWavelength> {
-  using Surfaces = LaneSurfaces<Real, kDraws, kOneWavelength>;
+template <typename Real, bool kOneWavelength>
+class LanePasses : LaneSurfaces<Real, kOneWavelength> {
+  using Surfaces = LaneSurfaces<Real, kOneWavelength>;
   using Surfaces::attenuation_per_mm_;
   using Surfaces::centre_;
   using Surfaces::cos_before_;
@@ -361,12 +361,12 @@ class LanePasses : LaneSurfaces<Real, kDraws, kOneWavelength> {
 };
 
 /// Inlined, so that a profile has the time under the name of the kernel, which is known outside its file.
-template <typename Real, LaneDraws kDraws>
+template <typename Real>
 [[gnu::always_inline]] inline void run_passes(LanePool& pool) {
   if (pool.one_wavelength)
-    LanePasses<Real, kDraws, true>(pool).run();
+    LanePasses<Real, true>(pool).run();
   else
-    LanePasses<Real, kDraws, false>(pool).run();
+    LanePasses<Real, false>(pool).run();
 }
 
 }  // namespace

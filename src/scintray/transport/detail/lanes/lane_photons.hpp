@@ -3,7 +3,7 @@
 /// faces that they are at: taken from the pool and put back by rows of four numbers.
 
 #include "scintray/core/lanes/lane_fours.hpp"
-#include "scintray/core/philox_laws.hpp"
+#include "scintray/core/xoroshiro.hpp"
 #include "scintray/optics/fresnel_laws.hpp"
 #include "scintray/transport/detail/lanes/lane_pool.hpp"
 
@@ -11,11 +11,10 @@ namespace scintray::transport {
 
 namespace {
 
-using core::LaneDraws;
 using core::LaneFours;
 
 /// @tparam kOneWavelength  LanePool::one_wavelength
-template <typename Real, LaneDraws kDraws, bool kOneWavelength>
+template <typename Real, bool kOneWavelength>
 class LanePhotons {
  protected:
   using Mask = typename Real::Mask;
@@ -39,9 +38,6 @@ class LanePhotons {
   static void store(Counts& to, const Bits& value) { value.store(to); }
 
   static Real one_if(const Mask& condition) { return where(condition, Real(1.0)); }
-  static Bits choose(const Mask& condition, const Bits& yes, const Bits& no) {
-    return bits_of(select(condition, number_of(yes), number_of(no)));
-  }
 
   /// One of two places, without a branch that would be predicted wrongly.
   /// @param first  1 or 0
@@ -76,12 +72,12 @@ class LanePhotons {
     const Mask taken = Mask::of(count < static_cast<int>(kWidth) ? (1U << count) - 1 : (1U << kWidth) - 1);
     moving.state = select(taken, Real(static_cast<double>(state)), Real(lane_state::kEmpty));
     const Row direction = row(offsetof(LanePhoton, direction)), optics = row(offsetof(LanePhoton, index)),
-              stream = row(offsetof(LanePhoton, side));
+              of_surface = row(offsetof(LanePhoton, side));
     const Row polarisation = row(offsetof(LanePhoton, polarisation)),
               counts = row(offsetof(LanePhoton, interactions));
     moving.light = {{direction.of[0], direction.of[1], direction.of[2]},
                     {polarisation.of[0], polarisation.of[1], polarisation.of[2]}};
-    moving.side = stream.of[0];
+    moving.side = of_surface.of[0];
     store(time_ns_, direction.of[3]);
     store(depth_left_, polarisation.of[3]);
     store(interactions_, counts.of[0]);
@@ -90,9 +86,9 @@ class LanePhotons {
     store(cos_before_, counts.of[3]);
     store(index_, optics.of[0]);
     store(group_index_, optics.of[1]);
-    store(next_, stream.of[1]);
-    store(drawn_, bits_of(stream.of[2]));
-    store(next_block_, bits_of(stream.of[3]));
+    store(next_, of_surface.of[1]);
+    store(stream_[0], bits_of(of_surface.of[2]));
+    store(stream_[1], bits_of(of_surface.of[3]));
   }
   void take_places() {
     const Row position = row(offsetof(LanePhoton, position)), centre = row(offsetof(LanePhoton, centre));
@@ -126,43 +122,21 @@ class LanePhotons {
     }
     if (changed.surface)
       put_row(offsetof(LanePhoton, side),
-              {{moving.side, load(next_), number_of(load(drawn_)), number_of(load(next_block_))}});
+              {{moving.side, load(next_), number_of(load(stream_[0])), number_of(load(stream_[1]))}});
     alignas(64) Counts states;
     store(states, bits_of(moving.state + Real(0x1.0p52)));
     for (std::size_t lane = 0; lane < kWidth; ++lane)
       pool_.in_state[static_cast<std::uint32_t>(states[lane])] |= bit_[lane];
   }
 
-  /// Draws a block of random numbers for each photon of `draws` with fewer than `needed`, at most four, left.
-  void draw(const Mask& draws, double needed) {
-    const Real ready = value_of((load(next_block_) << 2) - load(drawn_));
-    const Mask lack = draws & (ready < Real(needed));
-    if (!any(lack)) return;
-    if constexpr (kDraws == LaneDraws::in_lanes)
-      draw_in_lanes(ready <= Real(static_cast<double>(LanePhoton::kNumbers - 4)));
-    else
-      draw_one_by_one(pool_.keys, photon_, next_block_, lanes_of(lack));
+  using Stream = core::Xoroshiro<Bits>;
+  /// The streams of random numbers, as far as numbers were used.
+  Stream stream() const { return {load(stream_[0]), load(stream_[1])}; }
+  /// Numbers of these photons up to there are used.
+  void go_on_from(const Stream& behind, const Mask& those) {
+    const Stream after = select<Real>(those, behind, stream());
+    store(stream_[0], after.first), store(stream_[1], after.second);
   }
-  /// Four random numbers of each photon.
-  struct Random {
-    Bits bits[4];
-    Real uniform(int i) const { return core::uniform_of<Real>(bits[i]); }
-    Real uniform_positive(int i) const { return core::uniform_positive_of<Real>(bits[i]); }
-  };
-  /// The next ones, not yet counted as drawn.
-  Random next_numbers() const {
-    LaneFours<Real> fours;
-    load_fours(next_places().at, fours);
-    return {{bits_of(fours.of[0]), bits_of(fours.of[1]), bits_of(fours.of[2]), bits_of(fours.of[3])}};
-  }
-  /// The next one, likewise.
-  Bits next_number() const {
-    Real ones;
-    load_ones(next_places().at, ones);
-    return bits_of(ones);
-  }
-  /// Counts numbers as drawn, whole ones from 0 to 7.
-  void count_drawn(const Real& numbers) { store(drawn_, load(drawn_) + whole(numbers)); }
 
   /// The face that a photon is at.
   struct Now : Moving {
@@ -230,61 +204,9 @@ class LanePhotons {
     return places;
   }
 
-  struct Places {
-    const double* at[kWidth];
-  };
-  /// Where the next random number of each photon is.
-  Places next_places() const {
-    Places places;
-    for (std::size_t lane = 0; lane < kWidth; ++lane)
-      places.at[lane] =
-          reinterpret_cast<const double*>(photon_[lane]->numbers) + drawn_[lane] % LanePhoton::kNumbers;
-    return places;
-  }
-  /// A whole number from 0 to 7 as bits.
-  static Bits whole(const Real& number) { return bits_of(number + Real(0x1.0p52)) & Bits(7); }
-
-  /// Not inlined, so that it has the registers for itself.
-  /// @param lanes  a bit for each
-  [[gnu::noinline]] static void draw_one_by_one(const core::PhiloxKeys<std::uint64_t>& keys,
-                                                LanePhoton* const* photons, std::uint64_t* next_block,
-                                                unsigned lanes) {
-    for (; lanes != 0; lanes &= lanes - 1) {
-      const auto lane = static_cast<std::size_t>(__builtin_ctz(lanes));
-      LanePhoton& photon = *photons[lane];
-      const std::uint64_t number = next_block[lane]++;
-      const core::PhiloxBlock<std::uint64_t> block(
-          {number, photon.counter[0], photon.counter[1], photon.counter[2]}, keys);
-      const std::size_t first = number * 4 % LanePhoton::kNumbers;
-      const std::size_t again = first + (first > 0 ? 0 : LanePhoton::kNumbers);
-      for (std::size_t i = 0; i < 4; ++i)
-        photon.numbers[first + i] = photon.numbers[again + i] = block.words[i];
-    }
-  }
-  /// For all photons with room, also those that do not lack numbers.
-  void draw_in_lanes(const Mask& room) {
-    const Bits blocks = load(next_block_);
-    const Row counter = row(offsetof(LanePhoton, counter));
-    const core::PhiloxBlock<Bits> block(
-        {blocks, bits_of(counter.of[0]), bits_of(counter.of[1]), bits_of(counter.of[2])}, pool_.keys);
-    store(next_block_, blocks + whole(one_if(room)));
-    alignas(64) std::uint64_t number[kWidth];
-    blocks.store(number);
-    const unsigned lanes = lanes_of(room);
-    std::uint64_t *first[kWidth], *second[kWidth], nowhere[4];
-    for (std::size_t lane = 0; lane < kWidth; ++lane) {
-      std::uint64_t* const numbers = photon_[lane]->numbers;
-      const std::size_t at = number[lane] * 4 % LanePhoton::kNumbers;
-      const bool takes = (lanes >> lane & 1) != 0;
-      first[lane] = takes ? numbers + at : nowhere;
-      second[lane] = takes && at == 0 ? numbers + LanePhoton::kNumbers : nowhere;
-    }
-    store_fours(block.words, first, second);
-  }
-
   std::uint32_t place_[kWidth];  ///< in the pool
   alignas(64) Counts bit_;       ///< for that
-  alignas(64) Counts drawn_, next_block_;
+  alignas(64) Counts stream_[2];
 };
 
 }  // namespace

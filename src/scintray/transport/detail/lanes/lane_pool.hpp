@@ -9,7 +9,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "scintray/core/philox_laws.hpp"
 #include "scintray/optics/table_laws.hpp"
 #include "scintray/transport/detail/lanes/lane_kernel.hpp"
 
@@ -73,7 +72,7 @@ struct alignas(32) LaneFaceOptics {
 
   union {
     double sigma_rad;  ///< of facets
-    double to_next;  ///< of a table: probability of its next slice; negative: there is one, and none is drawn
+    double to_next;    ///< of a table: probability of its next slice; negative: there is one
   };
   double widest_rad;              ///< facets beyond this angle are drawn again
   double sin_widest, cos_widest;  ///< of facets weighted by area: greatest_facing() needs them
@@ -139,10 +138,6 @@ struct LaneRegion {
 
 /// A photon of the pool. Rows of four numbers are loaded and stored at once.
 struct alignas(64) LanePhoton {
-  /// Random numbers that are not used yet, in whole blocks of four. The first four are repeated after the
-  /// last, so that any four consecutive ones can be loaded.
-  static constexpr std::size_t kNumbers = 16;
-
   double position[3], path_mm;
   double direction[3], time_ns;
   double polarisation[3], depth_left;
@@ -152,12 +147,10 @@ struct alignas(64) LanePhoton {
   double centre[3];               ///< origin of the region's frame
   double attenuation_per_mm;      ///< of the region's medium, as the indices
   double index, group_index, padding[2];
-  double side;                      ///< at a microsurface: 1 in the photon's region, -1 beyond
-  double next;                      ///< state after kPolarise
-  std::uint64_t drawn, next_block;  ///< numbers used, and Philox's first counter: the next block to be drawn
-  std::uint64_t counter[3];         ///< Philox's other counters
+  double side;              ///< at a microsurface: 1 in the photon's region, -1 beyond
+  double next;              ///< state after kPolarise
+  std::uint64_t stream[2];  ///< of random numbers: core::Rng::State
   const LaneRecord* optics;
-  std::uint64_t numbers[kNumbers + 4];
   LaneRegion region;
 };
 
@@ -168,8 +161,6 @@ struct LanePool {
 
   LanePhoton photons[kPhotons + 1];            ///< the last one stands for none, in lanes that have no photon
   std::uint64_t in_state[lane_state::kCount];  ///< a bit for each photon
-
-  core::PhiloxKeys<std::uint64_t> keys;  ///< of the random numbers of all photons
 
   double most_interactions, most_time_ns;  ///< limits as of PropagationLimits
   bool boxes;                              ///< all regions bounded by planes are as scene::Boundary::is_box

@@ -9,31 +9,27 @@
 namespace scintray::transport {
 namespace {
 
-template <typename Real, LaneDraws kDraws, bool kOneWavelength>
-class LaneSurfaces : protected LanePhotons<Real, kDraws, kOneWavelength> {
-  using Photons = LanePhotons<Real, kDraws, kOneWavelength>;
+template <typename Real, bool kOneWavelength>
+class LaneSurfaces : protected LanePhotons<Real, kOneWavelength> {
+  using Photons = LanePhotons<Real, kOneWavelength>;
 
  protected:
-  using Photons::choose;
-  using Photons::count_drawn;
-  using Photons::draw;
   using Photons::face_of;
+  using Photons::go_on_from;
   using Photons::index_;
   using Photons::kWidth;
   using Photons::load;
   using Photons::next_;
-  using Photons::next_number;
-  using Photons::next_numbers;
   using Photons::number_of_lanes;
-  using Photons::one_if;
   using Photons::one_of;
   using Photons::optics_of;
   using Photons::store;
+  using Photons::stream;
   using typename Photons::Bits;
   using typename Photons::Light;
   using typename Photons::Mask;
   using typename Photons::Now;
-  using typename Photons::Random;
+  using typename Photons::Stream;
   using typename Photons::Vector;
   /// Facets are redrawn until at most this number of lanes lacks one; those wait for the next pass.
   static constexpr int kFewLanes = static_cast<int>(kWidth / 4);
@@ -50,20 +46,17 @@ class LaneSurfaces : protected LanePhotons<Real, kDraws, kOneWavelength> {
       const Mask by_area = last.of[0] > Real(0.0);
       const optics::FacetNumbers<Real> numbers{more.of[0], more.of[1], more.of[2], more.of[3], by_area};
       do {
-        draw(pending, 4.0);
-        const Random random = next_numbers();
-        const optics::FacetDraw<Real> facet(
-            numbers, now.light.direction, against,
-            {random.uniform_positive(0), random.uniform(1), random.uniform(2), random.uniform(3)});
-        const Mask found = pending & facet.accepted;
-        m = select(found, facet.normal, m);
-        count_drawn(where(pending, facet.drawn));
+        Stream random = stream();
+        const optics::FacetDraw<Real> facet(numbers, now.light.direction, against,
+                                            optics::FacetRandom<Real>(random));
+        go_on_from(random, pending);
+        m = select(pending & facet.accepted, facet.normal, m);
         pending = pending & !facet.accepted;
       } while (number_of_lanes(pending) > kFewLanes);
     }
     const Mask ready = smooth | (facets & !pending);
-    draw(ready, 1.0);
-    const Bits for_fresnel = next_number();
+    Stream random = stream();
+    const Bits for_fresnel = random.next();
     const Mask inside = now.side > Real(0.0);
     const Real index = load(index_);
     const Refracted after = refract(now.light, m, select(inside, index, now.index_behind),
@@ -76,7 +69,7 @@ class LaneSurfaces : protected LanePhotons<Real, kDraws, kOneWavelength> {
         select(now.reflector > Real(0.0), Real(lane_state::kReflector), Real(lane_state::kThrough));
     const Real next = select(now.side > Real(0.0), Real(lane_state::kReflected), through);
     now.state = select(left, next, now.state);
-    count_drawn(one_if(ready & after.drawn));
+    go_on_from(random, ready & after.drawn);
   }
 
   struct Refracted {
@@ -115,7 +108,6 @@ class LaneSurfaces : protected LanePhotons<Real, kDraws, kOneWavelength> {
   struct LookedUp {
     const optics::TableView* view[kWidth];
     const optics::TableInterval* interval[kWidth];
-    alignas(64) double several[kWidth];  ///< 1: one of two slices was drawn
     alignas(64) double absorbs[kWidth], transmits[kWidth];
   };
   /// @param first  random number that selects between slices
@@ -127,7 +119,7 @@ class LaneSurfaces : protected LanePhotons<Real, kDraws, kOneWavelength> {
     const unsigned lanes = lanes_of(here);
     for (std::size_t lane = 0; lane < kWidth; ++lane) {
       found.interval[lane] = &kNone;
-      found.several[lane] = found.absorbs[lane] = found.transmits[lane] = 0.0;
+      found.absorbs[lane] = found.transmits[lane] = 0.0;
       if ((lanes >> lane & 1) == 0) continue;
       const LaneFaceOptics& face = kOneWavelength
                                        ? face_of(now, lane).at_one
@@ -135,7 +127,6 @@ class LaneSurfaces : protected LanePhotons<Real, kDraws, kOneWavelength> {
       const LaneTable& table = *face.table;
       found.view[lane] = &table.view[uniform[lane] < face.to_next ? 1 : 0][side[lane] > 0.0 ? 0 : 1];
       found.interval[lane] = &optics::interval_at(*found.view[lane], slant[lane]);
-      found.several[lane] = face.to_next >= 0.0 ? 1.0 : 0.0;
       found.absorbs[lane] = table.absorbs ? 1.0 : 0.0;
       found.transmits[lane] = found.interval[lane]->transmits ? 1.0 : 0.0;
     }
@@ -181,16 +172,19 @@ class LaneSurfaces : protected LanePhotons<Real, kDraws, kOneWavelength> {
     Mask ready = here;
     const Mask no_plane = here & (sine <= Real(optics::kNoIncidencePlane));
     if (any(no_plane)) {
-      draw(no_plane, 1.0);
-      const core::CirclePoint<Real> point(next_number());
-      count_drawn(one_if(no_plane));
+      Stream random = stream();
+      const core::CirclePoint<Real> point(random.next());
+      go_on_from(random, no_plane);
       forward = select(no_plane, core::across_at<Real>(now.normal, point), forward);
       ready = here & !(no_plane & !point.accepted);
     }
-    draw(ready, 4.0);
-    const Random random = next_numbers();
+    Stream random = stream();
+    const Real for_slice = core::uniform_of<Real>(random.next()), u = core::uniform_of<Real>(random.next());
+    const Real for_polar = core::uniform_of<Real>(random.next());
+    const Bits azimuth_bits = random.next();
+    go_on_from(random, ready);
     const Real slant = optics::slant_of<Real>(sine, magnitude(cosine));
-    const LookedUp found = look_up(now, ready, slant, random.uniform(0));
+    const LookedUp found = look_up(now, ready, slant, for_slice);
     const double* numbers[kWidth];
     LaneFours<Real> first, second;
     for (std::size_t lane = 0; lane < kWidth; ++lane) numbers[lane] = &found.interval[lane]->start;
@@ -201,16 +195,11 @@ class LaneSurfaces : protected LanePhotons<Real, kDraws, kOneWavelength> {
     const Real reflectance = first.of[3] + share * second.of[0];
     const Real absorptance = second.of[1] + share * second.of[2];
 
-    const Mask several = Real::load(found.several) > zero;
-    const Real u = core::uniform_of<Real>(choose(several, random.bits[1], random.bits[0]));
     const Mask reflected = u < reflectance;
     const Mask absorbed = ready & (Real::load(found.absorbs) > zero) & !reflected &
                           ((!(Real::load(found.transmits) > zero)) | (u < reflectance + absorptance));
     const Mask leaves = ready & !absorbed;
-    const Bits azimuth_bits = choose(several, random.bits[3], random.bits[2]);
-    const Exits exits = exits_of(found, leaves, reflected, share,
-                                 optics::level_of_two_tails<Real>(
-                                     core::uniform_of<Real>(choose(several, random.bits[2], random.bits[1]))),
+    const Exits exits = exits_of(found, leaves, reflected, share, optics::level_of_two_tails<Real>(for_polar),
                                  optics::level_of_one_tail<Real>(core::uniform_of<Real>(azimuth_bits)));
     const core::SineCosineOf<Real> polar = core::laws::sincos<Real>(exits.polar);
     const Mask grazing = polar.cosine < Real(optics::kLeastExitCosine);
@@ -233,49 +222,46 @@ class LaneSurfaces : protected LanePhotons<Real, kDraws, kOneWavelength> {
     store(next_, select(leaves, next, load(next_)));
     now.state = select(leaves, select(unpolarised, next, Real(lane_state::kPolarise)), now.state);
     now.state = select(absorbed, Real(lane_state::kAbsorbed), now.state);
-    const Real drawn = select(absorbed, one, Real(3.0)) + where(several, one);
-    count_drawn(where(ready, drawn));
   }
 
   /// As optics::interact_at_reflector, of an opaque sheet that reflects by Lambert's law and specularly.
   void reflect_at_reflector(Now& now, const Mask& here) {
-    draw(here, 4.0);
-    const Random random = next_numbers();
+    Stream random = stream();
+    const Real u = core::uniform_of<Real>(random.next());
+    const Stream behind_first = random;
     const LaneFours<Real> sheet = optics_of(now, 2);
-    const Real zero(0.0), one(1.0), share = sheet.of[2];
-    const Mask absorbed = random.uniform(0) >= sheet.of[1];
-    const Mask mixed = (share > zero) & (share < one);
-    const Mask specular = (share >= one) | (mixed & (random.uniform(1) < share));
+    const Mask absorbed = u >= sheet.of[1], specular = u < sheet.of[1] * sheet.of[2];
     const Vector against = -now.normal;
-    const Light mirrored = optics::reflected(now.light, against);
     const Mask unpolarised = is_zero(now.light.polarisation), kept = here & !absorbed;
+    const Light mirrored = optics::reflected(now.light, against);
     if (const Mask scattered = kept & !specular; any(scattered)) {
-      const Vector diffuse = core::lambertian<Real>(
-          against, core::uniform_of<Real>(choose(mixed, random.bits[2], random.bits[1])),
-          core::uniform_of<Real>(choose(mixed, random.bits[3], random.bits[2])));
+      const Real sine2 = core::uniform_of<Real>(random.next());
+      const Vector diffuse = core::lambertian<Real>(against, sine2, core::uniform_of<Real>(random.next()));
       now.light.direction = select(scattered, diffuse, now.light.direction);
+      go_on_from(random, scattered);
     }
+    go_on_from(behind_first, here & specular);
     now.light = select(kept & specular, mirrored, now.light);
     const Real back =
         select(now.kind == Real(lane_state::kReflector), Real(lane_state::kReflected), now.kind);
     store(next_, select(here, back, load(next_)));
     const Real next = select(specular | unpolarised, back, Real(lane_state::kPolarise));
     now.state = select(here, select(absorbed, Real(lane_state::kAbsorbed), next), now.state);
-    const Real drawn = one + one_if(mixed) + where(!specular, Real(2.0));
-    count_drawn(where(here, select(absorbed, one, drawn)));
   }
 
   /// As core::sample_polarisation, of which at most two points are drawn.
   void polarise(Now& now, const Mask& here) {
-    draw(here, 2.0);
-    const Random random = next_numbers();
-    const Mask first = core::CirclePoint<Real>(random.bits[0]).accepted;
-    const core::CirclePoint<Real> point(choose(first, random.bits[0], random.bits[1]));
+    Stream random = stream();
+    const Bits first_bits = random.next();
+    const Mask first = core::CirclePoint<Real>(first_bits).accepted;
+    const Stream behind_first = random;
+    const core::CirclePoint<Real> point(
+        bits_of(select(first, number_of(first_bits), number_of(random.next()))));
+    go_on_from(select<Real>(first, behind_first, random), here);
     const Mask done = here & point.accepted;
     now.light.polarisation =
         select(done, core::across_at<Real>(now.light.direction, point), now.light.polarisation);
     now.state = select(done, load(next_), now.state);
-    count_drawn(where(here, select(first, Real(1.0), Real(2.0))));
   }
 };
 

@@ -16,6 +16,6 @@ void propagate_lanes_in_body_4(const LaneBody& body, const LaneLimits& limits, L
   propagate_in_body<core::LaneReal<xsimd::avx2>>(body, limits, photons, count);
 }
 
-void run_lanes_4(LanePool& pool) { run_passes<core::LaneRealPair<xsimd::avx2>, LaneDraws::one_by_one>(pool); }
+void run_lanes_4(LanePool& pool) { run_passes<core::LaneRealPair<xsimd::avx2>>(pool); }
 
 }  // namespace scintray::transport

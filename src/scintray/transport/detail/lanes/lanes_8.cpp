@@ -16,6 +16,6 @@ void propagate_lanes_in_body_8(const LaneBody& body, const LaneLimits& limits, L
   propagate_in_body<core::LaneReal<xsimd::avx512f>>(body, limits, photons, count);
 }
 
-void run_lanes_8(LanePool& pool) { run_passes<core::LaneReal<xsimd::avx512f>, LaneDraws::in_lanes>(pool); }
+void run_lanes_8(LanePool& pool) { run_passes<core::LaneReal<xsimd::avx512f>>(pool); }
 
 }  // namespace scintray::transport
