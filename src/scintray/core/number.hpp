@@ -43,6 +43,10 @@ using BitsOf = typename NumberTypes<Real>::Bits;
 [[gnu::always_inline]] inline constexpr double value_of(std::uint64_t whole) {
   return static_cast<double>(static_cast<std::int64_t>(whole));
 }
+/// The whole part of a number from 0 to 2^31.
+[[gnu::always_inline]] inline double whole_part(double x) {
+  return static_cast<double>(static_cast<std::int32_t>(x));
+}
 [[gnu::always_inline]] inline double root(double x) { return std::sqrt(x); }
 [[gnu::always_inline]] inline constexpr double magnitude(double x) {
   return number_of(bits_of(x) & ~(std::uint64_t{1} << 63));
@@ -72,24 +76,33 @@ Real greatest(const Real& a, const Real& b) {
   return select(a > b, a, b);
 }
 
-/// 64 random bits as a number uniform on [0, 1), of 53 bits.
+/// The value of a whole number below 2^52: in fewer steps than value_of(), as the last bits of a number whose
+/// other bits are fixed.
+template <typename Real>
+Real short_value_of(const BitsOf<Real>& whole) {
+  return number_of(whole | BitsOf<Real>(bits_of(0x1.0p52))) - Real(0x1.0p52);
+}
+/// The bits of a whole number below 2^32, of which the lower 32 are its value.
+template <typename Real>
+BitsOf<Real> whole_bits_of(const Real& whole) {
+  return bits_of(whole + Real(0x1.0p52));
+}
+
+/// 64 random bits as a number uniform on [1, 2), by the first 52 of them.
+template <typename Real>
+Real uniform_above_one(const BitsOf<Real>& bits) {
+  return number_of((bits >> 12) | BitsOf<Real>(bits_of(1.0)));
+}
+/// As a number uniform on [0, 1), of 52 bits.
 template <typename Real>
 Real uniform_of(const BitsOf<Real>& bits) {
-  return value_of(bits >> 11) * Real(0x1.0p-53);
+  return uniform_above_one<Real>(bits) - Real(1.0);
 }
 /// As a number uniform on (0, 1]: safe as the argument of a logarithm.
 template <typename Real>
 Real uniform_positive_of(const BitsOf<Real>& bits) {
-  return (value_of(bits >> 11) + Real(1.0)) * Real(0x1.0p-53);
+  return Real(2.0) - uniform_above_one<Real>(bits);
 }
-/// Two numbers uniform on [0, 1), of 32 bits each, from 64 random bits.
-template <typename Real>
-struct TwoUniforms {
-  Real first, second;
-  explicit TwoUniforms(const BitsOf<Real>& bits)
-      : first(value_of(bits >> 32) * Real(0x1.0p-32)),
-        second(value_of(bits & BitsOf<Real>(0xffffffffULL)) * Real(0x1.0p-32)) {}
-};
 
 /// Three coordinates. Products are added in the order of Eigen's, whose bits they have.
 template <typename Real>

@@ -38,12 +38,10 @@ class Rng {
   /// 64 random bits.
   std::uint64_t bits() { return state_.next(); }
 
-  /// Uniform on [0, 1), 53 bits.
-  double uniform() { return to_uniform(bits()); }
-  static double to_uniform(std::uint64_t bits) { return static_cast<double>(bits >> 11) * 0x1.0p-53; }
-
+  /// Uniform on [0, 1), 52 bits.
+  double uniform() { return uniform_of<double>(bits()); }
   /// Uniform on (0, 1]: safe as the argument of a logarithm.
-  double uniform_positive() { return static_cast<double>((bits() >> 11) + 1) * 0x1.0p-53; }
+  double uniform_positive() { return uniform_positive_of<double>(bits()); }
 
  private:
   State state_;

@@ -132,15 +132,17 @@ SurfaceTable::SurfaceTable(std::vector<TableSlice> slices, AzimuthKind kind, Tab
   }
   check.throw_if_any();
   opaque_ = true;
+  for (const TableSlice& slice : slices_) {
+    for (const TableNode& node : slice.from_inside) opaque_ = opaque_ && node.transmitted.empty();
+    for (const Side side : {Side::inside, Side::outside})
+      for (const TableNode& node : slice.nodes(side)) absorbs_ = absorbs_ || node.absorptance > 0.0;
+  }
   Samplers samplers;
   for (const TableSlice& slice : slices_) {
     // Directions drawn from a reciprocal kernel do not use the sampler.
     static const std::vector<TableNode> kNone;
     for (const Side side : {Side::inside, Side::outside})
-      samplers.emplace_back(slice.reciprocal ? kNone : slice.nodes(side), kind_);
-    for (const TableNode& node : slice.from_inside) opaque_ = opaque_ && node.transmitted.empty();
-    for (const Side side : {Side::inside, Side::outside})
-      for (const TableNode& node : slice.nodes(side)) absorbs_ = absorbs_ || node.absorptance > 0.0;
+      samplers.emplace_back(slice.reciprocal ? kNone : slice.nodes(side), kind_, absorbs_);
   }
   std::size_t bytes = 0;
   for (const TableSampler& sampler : samplers) bytes += sampler.bytes();
@@ -245,13 +247,10 @@ SurfaceOutcome SurfaceTable::interact(Ray& ray, Side side, const core::Vec3& nor
   }
   const TableSampler& sampler = this->sampler(slice, side);
   const TableSampler::Place at = sampler.place(sine, std::abs(cosine));
-  const double reflectance = at.reflectance();
   const double u = rng.uniform();
-  const bool reflected = u < reflectance;
-  // Rounding must not transmit light where no node does.
-  if (absorbs_ && !reflected && (!at.transmits() || u < reflectance + at.absorptance()))
-    return SurfaceOutcome::absorbed;
-  const ExitAngles exit = sampler.sample(at, reflected, rng);
+  const bool reflected = u < at.reflectance();
+  if (!reflected && at.absorbs(u)) return SurfaceOutcome::absorbed;
+  const TableExit exit = sampler.sample(at, reflected, rng);
 
   core::SineCosine polar = core::sincos(exit.polar);
   // A direction exactly in the surface would be on neither side.

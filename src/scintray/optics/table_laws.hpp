@@ -5,14 +5,17 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 
 #include "scintray/core/number.hpp"
 #include "scintray/optics/table_bins.hpp"
 
 namespace scintray::optics {
 
+using core::least;
 using core::root;
 using core::select;
+using core::whole_part;
 
 /// Sine of the incidence angle below which there is no plane of incidence: one is drawn.
 inline constexpr double kNoIncidencePlane = 1e-9;
@@ -29,25 +32,31 @@ struct alignas(64) TableInterval {
   double reflectance = 0.0;
 
   double reflectance_step = 0.0;
+  /// 2 in an interval that transmits nothing, as rounding must not transmit light where no node does, and -2
+  /// in a table that absorbs nothing.
   double absorptance = 0.0, absorptance_step = 0.0;
-  /// Nodes whose directions are used, counted from the lower: a node without light on that side has no
-  /// distribution. Transmitted, reflected.
-  std::uint8_t low[2] = {0, 0}, high[2] = {1, 1};
-  bool transmits = false;  ///< transmittance above 0 at one of its nodes
+  double first_row = 0.0;  ///< of its quantiles, of the first polar edge
 };
 static_assert(sizeof(TableInterval) == 64);
 
-/// The numbers of a TableSampler.
+/// Polar edges of an interval: rows of its quantiles.
+inline constexpr int kPolarRows = kPolarBins + 1;
+/// Azimuth edges of a row.
+inline constexpr int kAzimuthEdges = kAzimuthBins + 1;
+
+/// The numbers of a TableSampler. Quantiles are those at the lower and the higher node of an interval, one
+/// beside the other: where one has none, as it sends no light to that side, those of the other.
 struct TableView {
   const TableInterval* intervals = nullptr;
   const std::uint32_t* lookup = nullptr;  ///< first candidate interval for equal steps of slant_of()
-  std::uint32_t interval_count = 0, nodes = 0;
-  float azimuth_zero = 0.0f, azimuth_step = 0.0f;  ///< of the 16-bit codes, rad
-  bool folded = true;                              ///< azimuths are from 0 to pi
+  std::uint32_t interval_count = 0;
+  std::uint32_t folded = 1;   ///< 1: azimuths are from 0 to pi
+  double azimuth_zero = 0.0;  ///< of the 16-bit codes
   // Transmitted, reflected.
-  const float* polar[2] = {};            ///< [polar edge][node], rad
-  const std::uint16_t* azimuth[2] = {};  ///< [polar bin][node][azimuth edge]
+  const float* polar[2] = {};            ///< [row][node], rad
+  const std::uint16_t* azimuth[2] = {};  ///< [row][azimuth edge][node]
 };
+static_assert(sizeof(TableView) == 64);
 
 /// Number of steps of the lookup: finer than the nodes, so that at most one or two steps remain.
 inline constexpr std::uint32_t kTableLookupSteps = 2048;
@@ -58,9 +67,16 @@ Real slant_of(const Real& sine, const Real& cosine) {
   return sine / (sine + cosine);
 }
 
-[[gnu::always_inline]] inline const TableInterval& interval_at(const TableView& table, double slant) {
-  const auto step = static_cast<std::uint32_t>(slant * kTableLookupSteps);
-  std::uint32_t k = table.lookup[step < kTableLookupSteps ? step : kTableLookupSteps];
+/// The step of the lookup at a slant: a whole number.
+template <typename Real>
+Real lookup_step(const Real& slant) {
+  constexpr double kSteps = kTableLookupSteps;
+  return least(whole_part(slant * Real(kSteps)), Real(kSteps));
+}
+/// @param step  lookup_step(slant)
+[[gnu::always_inline]] inline const TableInterval& interval_at(const TableView& table, double slant,
+                                                               std::uint32_t step) {
+  std::uint32_t k = table.lookup[step];
   while (k + 1 < table.interval_count && slant >= table.intervals[k + 1].start) ++k;
   return table.intervals[k];
 }
@@ -88,55 +104,42 @@ Real level_of_one_tail(const Real& u) {
   return Real(1.0) - root(Real(1.0) - u);
 }
 
-/// Polar angle and azimuth of exit, rad.
-struct TableExit {
-  float polar, azimuth;
+/// A level between 0 and 1 among equal bins.
+template <typename Real>
+struct TableBin {
+  Real number;  ///< a whole number
+  Real part;    ///< position within the bin
+
+  TableBin(const Real& level, int bins) : TableBin(level * Real(bins), Real(bins - 1)) {}
+
+ private:
+  TableBin(const Real& at, const Real& last) : number(least(whole_part(at), last)), part(at - number) {}
 };
 
-/// Where the quantiles of an exit are. Known before they are read, so that those of several photons can be
-/// fetched at once.
-struct TableCell {
-  const float *polar_low, *polar_high;  ///< at the lower and the higher node
-  const std::uint16_t *azimuth_low, *azimuth_high;
-  float polar_part, azimuth_part;  ///< position within the bins
+/// Quantiles at the lower and the higher edge of a bin, each at the lower and the higher node.
+template <typename Real>
+struct TableQuantiles {
+  Real low[2], high[2];
+
+  /// Interpolated between edges, and between nodes.
+  /// @param part   TableBin::part
+  /// @param share  of share_of()
+  Real at(const Real& part, const Real& share) const {
+    const Real first = low[0] + part * (high[0] - low[0]), second = low[1] + part * (high[1] - low[1]);
+    return first + share * (second - first);
+  }
 };
 
-/// @param way    0: transmitted, 1: reflected
-/// @param polar_level, azimuth_level  from 0 to 1
-[[gnu::always_inline]] inline TableCell table_cell(const TableView& table, const TableInterval& interval,
-                                                   int way, double polar_level, double azimuth_level) {
-  constexpr std::size_t kRowEnds = kAzimuthBins + 1;
-  const double polar_at = polar_level * kPolarBins, azimuth_at = azimuth_level * kAzimuthBins;
-  int polar_bin = static_cast<int>(polar_at), azimuth_bin = static_cast<int>(azimuth_at);
-  if (polar_bin > kPolarBins - 1) polar_bin = kPolarBins - 1;
-  if (azimuth_bin > kAzimuthBins - 1) azimuth_bin = kAzimuthBins - 1;
-  const auto node = static_cast<std::size_t>(&interval - table.intervals);
-  const std::size_t row = static_cast<std::size_t>(polar_bin) * table.nodes + node;
-  const std::size_t low = row + interval.low[way], high = row + interval.high[way];
-  const std::uint16_t* const azimuth = table.azimuth[way] + static_cast<std::size_t>(azimuth_bin);
-  return {table.polar[way] + low,
-          table.polar[way] + high,
-          azimuth + low * kRowEnds,
-          azimuth + high * kRowEnds,
-          static_cast<float>(polar_at - polar_bin),
-          static_cast<float>(azimuth_at - azimuth_bin)};
+/// Codes of azimuth quantiles, as they follow each other in memory, as numbers.
+template <typename Real>
+TableQuantiles<Real> azimuth_codes(const core::BitsOf<Real>& four) {
+  const core::BitsOf<Real> mask(0xffffULL);
+  return {{core::short_value_of<Real>(four & mask), core::short_value_of<Real>((four >> 16) & mask)},
+          {core::short_value_of<Real>((four >> 32) & mask), core::short_value_of<Real>(four >> 48)}};
 }
-
-/// Interpolated between quantiles, and between the nodes of an interval.
-/// @param share  of share_of()
-[[gnu::always_inline]] inline TableExit table_exit(const TableView& table, const TableCell& at,
-                                                   double share) {
-  const auto part = static_cast<float>(share);
-  const float low_polar = at.polar_low[0] + at.polar_part * (at.polar_low[table.nodes] - at.polar_low[0]);
-  const float high_polar = at.polar_high[0] + at.polar_part * (at.polar_high[table.nodes] - at.polar_high[0]);
-  const auto low_first = static_cast<float>(at.azimuth_low[0]),
-             low_second = static_cast<float>(at.azimuth_low[1]);
-  const auto high_first = static_cast<float>(at.azimuth_high[0]),
-             high_second = static_cast<float>(at.azimuth_high[1]);
-  const float low_azimuth = low_first + at.azimuth_part * (low_second - low_first);
-  const float high_azimuth = high_first + at.azimuth_part * (high_second - high_first);
-  return {low_polar + part * (high_polar - low_polar),
-          table.azimuth_step * (low_azimuth + part * (high_azimuth - low_azimuth) - table.azimuth_zero)};
+/// A step of these codes, rad.
+inline constexpr double azimuth_step_rad(bool folded) {
+  return std::numbers::pi / (folded ? 65535.0 : 32767.0);
 }
 
 }  // namespace scintray::optics

@@ -11,23 +11,31 @@
 
 namespace scintray::optics {
 
+/// Direction of exit, rad: polar angle, and azimuth from the plane of incidence, on either side of it.
+struct TableExit {
+  double polar, azimuth;
+};
+
 /// Sampler of one slice of a table for incidence from one side.
 ///
 /// The data of one interaction are contiguous: an interval between two nodes is one cache line, the edges of
-/// one quantile bin of neighbouring nodes are neighbours, and azimuths are 16 bit wide (steps of half a turn
-/// over 65535, over 32767 for signed ones; angles of 2000 rays are known to about 1e-3 rad). A table of 41
-/// nodes takes 0.2 MB for each side on which light leaves, which fits the private cache of a core.
+/// one quantile bin at both nodes are neighbours, and azimuths are 16 bit wide (steps of half a turn over
+/// 65535, over 32767 for signed ones; angles of 2000 rays are known to about 1e-3 rad). A table of 41 nodes
+/// takes 0.4 MB for each side on which light leaves.
 class TableSampler {
  public:
   /// @param nodes as checked by SurfaceTable
-  TableSampler(const std::vector<TableNode>& nodes, AzimuthKind kind);
+  /// @param absorbs  some node of the whole table has an absorptance
+  TableSampler(const std::vector<TableNode>& nodes, AzimuthKind kind, bool absorbs);
 
   /// Position of an incidence angle between two nodes, and the shares there, linear between them.
   class Place {
    public:
     double reflectance() const { return interval_->reflectance + share_ * interval_->reflectance_step; }
-    double absorptance() const { return interval_->absorptance + share_ * interval_->absorptance_step; }
-    bool transmits() const { return interval_->transmits; }
+    /// @param u  a number of at least reflectance()
+    bool absorbs(double u) const {
+      return u < reflectance() + (interval_->absorptance + share_ * interval_->absorptance_step);
+    }
 
    private:
     friend class TableSampler;
@@ -41,19 +49,17 @@ class TableSampler {
   /// Its numbers, for lanes; valid as long as this is.
   TableView view() const;
 
-  /// Direction of exit: polar angle, and azimuth from the plane of incidence, on either side of it.
-  ExitAngles sample(const Place& place, bool reflected, core::Rng& rng) const;
+  TableExit sample(const Place& place, bool reflected, core::Rng& rng) const;
 
  private:
-  /// Quantiles of all nodes, of light that leaves on one side.
+  /// Quantiles of all intervals, of light that leaves on one side, as of TableView.
   struct Directions {
-    std::vector<float> polar;            ///< [polar edge][node], rad
-    std::vector<std::uint16_t> azimuth;  ///< [polar bin][node][azimuth edge]
+    std::vector<float> polar;
+    std::vector<std::uint16_t> azimuth;
   };
   Directions pack(const std::vector<TableNode>& nodes, DirectionQuantiles TableNode::*way) const;
 
   AzimuthKind kind_;
-  std::size_t nodes_;
   std::vector<TableInterval> intervals_;
   std::vector<std::uint32_t> lookup_;     ///< first candidate interval for equal steps of the measure
   std::array<Directions, 2> directions_;  ///< transmitted, reflected

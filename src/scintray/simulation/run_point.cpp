@@ -98,7 +98,7 @@ double ConversionDraws::at(std::uint64_t event, std::uint64_t photon) {
     block_ = block;
     has_numbers_ = true;
   }
-  return core::Rng::to_uniform(numbers_[photon % kNumbers]);
+  return core::uniform_of<double>(numbers_[photon % kNumbers]);
 }
 
 core::Rng photon_stream(const RunSettings& settings, std::uint64_t event, std::uint64_t photon) {

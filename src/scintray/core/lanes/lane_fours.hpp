@@ -157,6 +157,37 @@ static inline void load_ones(const double* const* at, LaneReal<xsimd::avx512f>& 
   to.lanes = _mm512_set_pd(*at[7], *at[6], *at[5], *at[4], *at[3], *at[2], *at[1], *at[0]);
 }
 #endif
+
+/// Loads four floats of each lane that follow each other in memory.
+#ifdef __AVX2__
+static inline void load_four_floats(const float* const* at, LaneFours<LaneReal<xsimd::avx2>>& to) {
+  __m128 a = _mm_loadu_ps(at[0]), b = _mm_loadu_ps(at[1]), c = _mm_loadu_ps(at[2]), d = _mm_loadu_ps(at[3]);
+  _MM_TRANSPOSE4_PS(a, b, c, d);
+  to.of[0].lanes = _mm256_cvtps_pd(a), to.of[1].lanes = _mm256_cvtps_pd(b);
+  to.of[2].lanes = _mm256_cvtps_pd(c), to.of[3].lanes = _mm256_cvtps_pd(d);
+}
+template <typename Arch>
+void load_four_floats(const float* const* at, LaneFours<LaneRealPair<Arch>>& to) {
+  LaneFours<LaneReal<Arch>> a, b;
+  load_four_floats(at, a);
+  load_four_floats(at + LaneReal<Arch>::kWidth, b);
+  for (int i = 0; i < 4; ++i) to.of[i] = {a.of[i], b.of[i]};
+}
+#endif
+#ifdef __AVX512F__
+static inline void load_four_floats(const float* const* at, LaneFours<LaneReal<xsimd::avx512f>>& to) {
+  const auto two = [&](int lane) {
+    return _mm256_set_m128(_mm_loadu_ps(at[lane + 4]), _mm_loadu_ps(at[lane]));
+  };
+  const __m256 a = two(0), b = two(1), c = two(2), d = two(3);
+  const __m256 ab = _mm256_unpacklo_ps(a, b), ba = _mm256_unpackhi_ps(a, b);
+  const __m256 cd = _mm256_unpacklo_ps(c, d), dc = _mm256_unpackhi_ps(c, d);
+  to.of[0].lanes = _mm512_cvtps_pd(_mm256_shuffle_ps(ab, cd, _MM_SHUFFLE(1, 0, 1, 0)));
+  to.of[1].lanes = _mm512_cvtps_pd(_mm256_shuffle_ps(ab, cd, _MM_SHUFFLE(3, 2, 3, 2)));
+  to.of[2].lanes = _mm512_cvtps_pd(_mm256_shuffle_ps(ba, dc, _MM_SHUFFLE(1, 0, 1, 0)));
+  to.of[3].lanes = _mm512_cvtps_pd(_mm256_shuffle_ps(ba, dc, _MM_SHUFFLE(3, 2, 3, 2)));
+}
+#endif
 template <typename Arch>
 void load_ones(const double* const* at, LaneRealPair<Arch>& to) {
   load_ones(at, to.a);

@@ -83,6 +83,19 @@ static inline __m512d chosen_by_sign(__m512d x, __m512d positive, __m512d negati
 }
 #endif
 
+// As core::whole_part.
+static inline __m128d whole_parts(__m128d x) { return _mm_cvtepi32_pd(_mm_cvttpd_epi32(x)); }
+#ifdef __AVX2__
+static inline __m256d whole_parts(__m256d x) {
+  return _mm256_round_pd(x, _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC);
+}
+#endif
+#ifdef __AVX512F__
+static inline __m512d whole_parts(__m512d x) {
+  return _mm512_roundscale_pd(x, _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC);
+}
+#endif
+
 // What a comparison selects.
 static inline __m128d selected_lanes(__m128d lanes, __m128d yes, __m128d no) {
   return _mm_or_pd(_mm_and_pd(lanes, yes), _mm_andnot_pd(lanes, no));
@@ -214,6 +227,7 @@ struct LaneReal {
     return Lanes(chosen_by_sign(x.lanes, positive.lanes, negative.lanes));
   }
   friend Bits bits_of(const LaneReal& x) { return xsimd::bitwise_cast<typename Bits::Lanes>(x.lanes); }
+  friend LaneReal whole_part(const LaneReal& x) { return Lanes(whole_parts(x.lanes)); }
   friend LaneReal root(const LaneReal& x) { return xsimd::sqrt(x.lanes); }
   friend LaneReal magnitude(const LaneReal& x) { return number_of(bits_of(x) & Bits(~kSign)); }
 
@@ -342,6 +356,7 @@ struct LaneRealPair {
     return {select_by_sign(x.a, positive.a, negative.a), select_by_sign(x.b, positive.b, negative.b)};
   }
   friend Bits bits_of(const LaneRealPair& x) { return {bits_of(x.a), bits_of(x.b)}; }
+  friend LaneRealPair whole_part(const LaneRealPair& x) { return {whole_part(x.a), whole_part(x.b)}; }
   friend LaneRealPair root(const LaneRealPair& x) { return {root(x.a), root(x.b)}; }
   friend LaneRealPair magnitude(const LaneRealPair& x) { return {magnitude(x.a), magnitude(x.b)}; }
 };

@@ -305,10 +305,9 @@ const LaneTable* LaneScene::tables_of(const optics::SurfaceTable& table) {
     LaneTable lanes;
     for (std::size_t k = 0; k < 2; ++k) {
       const std::size_t slice = std::min(first + k, slices - 1);
-      lanes.view[k][0] = table.sampler(slice, optics::Side::inside).view();
-      lanes.view[k][1] = table.sampler(slice, optics::Side::outside).view();
+      lanes.view[2 * k] = table.sampler(slice, optics::Side::inside).view();
+      lanes.view[2 * k + 1] = table.sampler(slice, optics::Side::outside).view();
     }
-    lanes.absorbs = table.absorbs();
     known.push_back(lanes);
   }
   return known.data();

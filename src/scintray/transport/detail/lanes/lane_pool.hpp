@@ -58,9 +58,8 @@ struct alignas(32) LaneBoxPlaces {
 
 /// A surface table between two of its wavelengths.
 struct LaneTable {
-  optics::TableView view[2]
-                        [2];  ///< of a slice and the next, for light from the photon's region and from beyond
-  bool absorbs = false;
+  /// Of a slice, for light from the photon's region and from beyond, and of the next.
+  optics::TableView view[4];
 };
 
 /// The surface at a face and what is behind it, for one wavelength. Four numbers are loaded at once.

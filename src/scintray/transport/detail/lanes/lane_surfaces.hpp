@@ -104,62 +104,68 @@ class LaneSurfaces : protected LanePhotons<Real, kOneWavelength> {
     return {{direction, polarisation}, transmitted, !total};
   }
 
-  /// Table entries for each photon.
+  /// Table and interval for each photon.
   struct LookedUp {
     const optics::TableView* view[kWidth];
     const optics::TableInterval* interval[kWidth];
-    alignas(64) double absorbs[kWidth], transmits[kWidth];
   };
-  /// @param first  random number that selects between slices
-  LookedUp look_up(const Now& now, const Mask& here, const Real& slants, const Real& first) const {
+  LookedUp look_up(const Now& now, const Mask& here, const Real& slants, const Mask& next_slice) const {
     static constexpr optics::TableInterval kNone{};
     LookedUp found;
-    alignas(64) double slant[kWidth], uniform[kWidth], side[kWidth];
-    slants.store(slant), first.store(uniform), now.side.store(side);
+    alignas(64) double slant[kWidth];
+    alignas(64) std::uint64_t step[kWidth], view[kWidth];
+    slants.store(slant);
+    core::whole_bits_of(optics::lookup_step(slants)).store(step);
+    core::whole_bits_of(where(next_slice, Real(2.0)) + where(now.side < Real(0.0), Real(1.0))).store(view);
     const unsigned lanes = lanes_of(here);
     for (std::size_t lane = 0; lane < kWidth; ++lane) {
       found.interval[lane] = &kNone;
-      found.absorbs[lane] = found.transmits[lane] = 0.0;
       if ((lanes >> lane & 1) == 0) continue;
       const LaneFaceOptics& face = kOneWavelength
                                        ? face_of(now, lane).at_one
                                        : *reinterpret_cast<const LaneFaceOptics*>(now.optics[lane]);
-      const LaneTable& table = *face.table;
-      found.view[lane] = &table.view[uniform[lane] < face.to_next ? 1 : 0][side[lane] > 0.0 ? 0 : 1];
-      found.interval[lane] = &optics::interval_at(*found.view[lane], slant[lane]);
-      found.absorbs[lane] = table.absorbs ? 1.0 : 0.0;
-      found.transmits[lane] = found.interval[lane]->transmits ? 1.0 : 0.0;
+      found.view[lane] = face.table->view + static_cast<std::uint32_t>(view[lane]);
+      found.interval[lane] =
+          &optics::interval_at(*found.view[lane], slant[lane], static_cast<std::uint32_t>(step[lane]));
     }
     return found;
   }
 
-  /// Directions of exit, each looked up at its levels.
+  /// Levels among the quantiles of a table, and the interval's first row of these.
+  struct Levels {
+    optics::TableBin<Real> polar, azimuth;
+    Real first_row;
+  };
+  /// Directions of exit, polar angle and azimuth.
   struct Exits {
     Real polar, azimuth;
   };
-  static Exits exits_of(const LookedUp& found, const Mask& leaves, const Mask& reflected, const Real& shares,
-                        const Real& polar_levels, const Real& azimuth_levels) {
-    alignas(64) double share[kWidth], polar[kWidth], azimuth[kWidth];
-    shares.store(share), polar_levels.store(polar), azimuth_levels.store(azimuth);
+  static Exits exits_of(const LookedUp& found, const Mask& leaves, const Mask& reflected, const Real& share,
+                        const Levels& at) {
+    static constexpr float kNone[4] = {};
+    alignas(64) std::uint64_t row[kWidth], cell[kWidth];
+    const Real rows = at.first_row + at.polar.number;
+    core::whole_bits_of(rows).store(row);
+    core::whole_bits_of(rows * Real(optics::kAzimuthEdges) + at.azimuth.number).store(cell);
     const unsigned lanes = lanes_of(leaves), ways = lanes_of(reflected);
-    optics::TableCell cells[kWidth];
-    // What is seldom in the nearest cache is fetched for all lanes before the first waits for it.
+    const float* polar[kWidth];
+    const double* azimuth[kWidth];
     for (std::size_t lane = 0; lane < kWidth; ++lane) {
+      polar[lane] = kNone, azimuth[lane] = reinterpret_cast<const double*>(kNone);
       if ((lanes >> lane & 1) == 0) continue;
-      cells[lane] = optics::table_cell(*found.view[lane], *found.interval[lane],
-                                       static_cast<int>(ways >> lane & 1), polar[lane], azimuth[lane]);
-      __builtin_prefetch(cells[lane].azimuth_low);
-      __builtin_prefetch(cells[lane].azimuth_high);
-      __builtin_prefetch(cells[lane].polar_low);
-      __builtin_prefetch(cells[lane].polar_low + found.view[lane]->nodes);
+      const unsigned way = ways >> lane & 1;
+      polar[lane] = found.view[lane]->polar[way] + 2 * static_cast<std::uint32_t>(row[lane]);
+      azimuth[lane] = reinterpret_cast<const double*>(found.view[lane]->azimuth[way] +
+                                                      2 * static_cast<std::uint32_t>(cell[lane]));
     }
-    for (std::size_t lane = 0; lane < kWidth; ++lane) {
-      if ((lanes >> lane & 1) == 0) continue;
-      const optics::TableExit exit = optics::table_exit(*found.view[lane], cells[lane], share[lane]);
-      polar[lane] = static_cast<double>(exit.polar);
-      azimuth[lane] = static_cast<double>(exit.azimuth);
-    }
-    return {Real::load(polar), Real::load(azimuth)};
+    LaneFours<Real> polars;
+    load_four_floats(polar, polars);
+    Real codes;
+    load_ones(azimuth, codes);
+    const optics::TableQuantiles<Real> of_polar{{polars.of[0], polars.of[1]}, {polars.of[2], polars.of[3]}};
+    return {of_polar.at(at.polar.part, share),
+            Real(optics::azimuth_step_rad(true)) *
+                optics::azimuth_codes<Real>(bits_of(codes)).at(at.azimuth.part, share)};
   }
 
   /// As optics::SurfaceTable::interact, of a table with folded azimuths.
@@ -184,7 +190,7 @@ class LaneSurfaces : protected LanePhotons<Real, kOneWavelength> {
     const Bits azimuth_bits = random.next();
     go_on_from(random, ready);
     const Real slant = optics::slant_of<Real>(sine, magnitude(cosine));
-    const LookedUp found = look_up(now, ready, slant, for_slice);
+    const LookedUp found = look_up(now, ready, slant, for_slice < optics_of(now, 1).of[0]);
     const double* numbers[kWidth];
     LaneFours<Real> first, second;
     for (std::size_t lane = 0; lane < kWidth; ++lane) numbers[lane] = &found.interval[lane]->start;
@@ -196,11 +202,13 @@ class LaneSurfaces : protected LanePhotons<Real, kOneWavelength> {
     const Real absorptance = second.of[1] + share * second.of[2];
 
     const Mask reflected = u < reflectance;
-    const Mask absorbed = ready & (Real::load(found.absorbs) > zero) & !reflected &
-                          ((!(Real::load(found.transmits) > zero)) | (u < reflectance + absorptance));
+    const Mask absorbed = ready & !reflected & (u < reflectance + absorptance);
     const Mask leaves = ready & !absorbed;
-    const Exits exits = exits_of(found, leaves, reflected, share, optics::level_of_two_tails<Real>(for_polar),
-                                 optics::level_of_one_tail<Real>(core::uniform_of<Real>(azimuth_bits)));
+    const Levels levels{
+        {optics::level_of_two_tails<Real>(for_polar), optics::kPolarBins},
+        {optics::level_of_one_tail<Real>(core::uniform_of<Real>(azimuth_bits)), optics::kAzimuthBins},
+        second.of[3]};
+    const Exits exits = exits_of(found, leaves, reflected, share, levels);
     const core::SineCosineOf<Real> polar = core::laws::sincos<Real>(exits.polar);
     const Mask grazing = polar.cosine < Real(optics::kLeastExitCosine);
     const Real sin_polar = select(grazing, one, polar.sine);
