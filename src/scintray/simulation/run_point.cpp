@@ -88,21 +88,8 @@ double efficiency_bound(const scene::Scene& scene) {
   return bound > 0.0 ? bound : 1.0;
 }
 
-double ConversionDraws::at(std::uint64_t event, std::uint64_t photon) {
-  constexpr std::uint64_t kNumbers = std::tuple_size_v<decltype(numbers_)>;
-  const std::uint64_t block = photon / kNumbers;
-  if (!has_numbers_ || event_ != event || block_ != block) {
-    core::Rng rng(seed_, core::StreamKind::conversion, event, block, point_);
-    for (std::uint64_t& number : numbers_) number = rng.bits();
-    event_ = event;
-    block_ = block;
-    has_numbers_ = true;
-  }
-  return core::uniform_of<double>(numbers_[photon % kNumbers]);
-}
-
 core::Rng photon_stream(const RunSettings& settings, std::uint64_t event, std::uint64_t photon) {
-  return core::Rng(settings.seed, core::StreamKind::photon, event, photon, settings.point);
+  return PhotonStreams(settings).stream(event, photon);
 }
 
 core::Rng event_stream(const RunSettings& settings, std::uint64_t event) {
@@ -199,7 +186,7 @@ source::Photon emitted(const scene::Scene& scene, const source::LightSource& sou
         "both count from 0"});
   rng = photon_stream(settings, event, photon);
   source::Photon start = source.emit(scene, light, photon, rng);
-  start.conversion_draw = ConversionDraws(settings).at(event, photon);
+  start.conversion_draw = PhotonStreams(settings).conversion_draw(event, photon);
   return start;
 }
 

@@ -62,19 +62,28 @@ bool multiplies_light(const scene::Scene& scene);
 /// one that is converted.
 double efficiency_bound(const scene::Scene& scene);
 
-/// The conversion draws of a run's photons. Each depends on seed, point, event and photon number alone, so
-/// that it is known before the photon is traced.
-class ConversionDraws {
+/// The random numbers of a run's photons: quickest for one event after the other.
+class PhotonStreams {
  public:
-  explicit ConversionDraws(const RunSettings& settings) : seed_(settings.seed), point_(settings.point) {}
-  /// Uniform on [0, 1). Photons of an event in their order cost a quarter of a random block each.
-  double at(std::uint64_t event, std::uint64_t photon);
+  explicit PhotonStreams(const RunSettings& settings)
+      : seed_(settings.seed), point_(settings.point), of_event_(family(0)) {}
+  core::Rng stream(std::uint64_t event, std::uint64_t photon) { return of(event).at(photon); }
+  /// Uniform on [0, 1). It is known before the photon is traced, and no part of its stream.
+  double conversion_draw(std::uint64_t event, std::uint64_t photon) {
+    return core::uniform_of<double>(of(event).bits_at(photon));
+  }
 
  private:
-  std::uint64_t seed_, point_;
-  std::uint64_t event_ = 0, block_ = 0;  ///< of the kept numbers
-  bool has_numbers_ = false;
-  std::array<std::uint64_t, 4> numbers_{};
+  core::StreamFamily family(std::uint64_t event) const {
+    return {seed_, core::StreamKind::photon, event, point_};
+  }
+  const core::StreamFamily& of(std::uint64_t event) {
+    if (event != event_) of_event_ = family(event_ = event);
+    return of_event_;
+  }
+
+  std::uint64_t seed_, point_, event_ = 0;
+  core::StreamFamily of_event_;
 };
 
 /// The limits of a run, at which photons are cut.

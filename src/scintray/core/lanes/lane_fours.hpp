@@ -158,7 +158,32 @@ static inline void load_ones(const double* const* at, LaneReal<xsimd::avx512f>& 
 }
 #endif
 
-/// Loads four floats of each lane that follow each other in memory.
+/// Four short whole numbers, of 16 bits, that follow each other in memory.
+static inline long long four_shorts(const std::uint16_t* at) {
+  long long four;
+  __builtin_memcpy(&four, at, sizeof four);
+  return four;
+}
+// Of each lane.
+#ifdef __AVX2__
+static inline void load_four_shorts(const std::uint16_t* const* at, LaneBits<xsimd::avx2>& to) {
+  to.lanes =
+      _mm256_set_epi64x(four_shorts(at[3]), four_shorts(at[2]), four_shorts(at[1]), four_shorts(at[0]));
+}
+template <typename Arch>
+void load_four_shorts(const std::uint16_t* const* at, LaneBitsPair<Arch>& to) {
+  load_four_shorts(at, to.a);
+  load_four_shorts(at + LaneBits<Arch>::kWidth, to.b);
+}
+#endif
+#ifdef __AVX512F__
+static inline void load_four_shorts(const std::uint16_t* const* at, LaneBits<xsimd::avx512f>& to) {
+  to.lanes = _mm512_set_epi64(four_shorts(at[7]), four_shorts(at[6]), four_shorts(at[5]), four_shorts(at[4]),
+                              four_shorts(at[3]), four_shorts(at[2]), four_shorts(at[1]), four_shorts(at[0]));
+}
+#endif
+
+/// Four floats of each lane that follow each other in memory.
 #ifdef __AVX2__
 static inline void load_four_floats(const float* const* at, LaneFours<LaneReal<xsimd::avx2>>& to) {
   __m128 a = _mm_loadu_ps(at[0]), b = _mm_loadu_ps(at[1]), c = _mm_loadu_ps(at[2]), d = _mm_loadu_ps(at[3]);

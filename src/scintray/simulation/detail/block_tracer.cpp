@@ -68,14 +68,14 @@ void BlockTracer::trace_alone(std::uint64_t number, TracedBlock& block) const {
   transport::PropagationLimits limits = limits_of(settings_);
   if (block.photons.wants_reflections()) limits.passed = pass;
   source::EventLight light;
-  ConversionDraws draws(settings_);
+  PhotonStreams streams(settings_);
   for (const source::PhotonSpan& span : source_.block(number)) {
     core::Rng rng = event_stream(settings_, span.event);
     source_.begin(scene_, span.event, rng, light);
     if (energy_) block.events.begin(span.event, settings_.point, light);
     const std::uint64_t count = std::min(span.count, light.photons - span.first);
     for (std::uint64_t i = span.first; i < span.first + count; ++i) {
-      const double draw = draws.at(span.event, i);
+      const double draw = streams.conversion_draw(span.event, i);
       if (draw >= settings_.birth_efficiency) continue;
       trace_photon(light, {span.event, i, draw}, limits, block);
       ++block.traced;
@@ -93,7 +93,7 @@ void BlockTracer::trace_together(std::uint64_t first, std::vector<TracedBlock>& 
   std::unique_ptr<transport::Batch> batch = batches_.take();
   if (!batch) batch = std::make_unique<transport::Batch>(scene_, limits_of(settings_), lanes_);
   source::EventLight light;
-  ConversionDraws draws(settings_);
+  PhotonStreams streams(settings_);
   std::vector<Address> photons;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     TracedBlock& block = blocks[b];
@@ -104,7 +104,7 @@ void BlockTracer::trace_together(std::uint64_t first, std::vector<TracedBlock>& 
       const std::uint64_t count = std::min(span.count, light.photons - span.first);
       block.emitted += count;
       for (std::uint64_t i = span.first; i < span.first + count; ++i) {
-        const double draw = draws.at(span.event, i);
+        const double draw = streams.conversion_draw(span.event, i);
         if (draw >= settings_.birth_efficiency) continue;
         photons.push_back({span.event, i, draw, b});
         if (photons.size() == kMostTogether) trace_photons(photons, light, *batch, blocks);
@@ -120,10 +120,11 @@ void BlockTracer::trace_together(std::uint64_t first, std::vector<TracedBlock>& 
 
 void BlockTracer::trace_photons(std::vector<Address>& photons, const source::EventLight& light,
                                 transport::Batch& batch, std::vector<TracedBlock>& blocks) const {
+  PhotonStreams streams(settings_);
   const auto emit = [&](std::uint64_t first, std::span<source::EmittedPhoton* const> emitted) {
     for (std::size_t i = 0; i < emitted.size(); ++i) {
       emitted[i]->number = photons[first + i].photon;
-      emitted[i]->rng = photon_stream(settings_, photons[first + i].event, emitted[i]->number);
+      emitted[i]->rng = streams.stream(photons[first + i].event, emitted[i]->number);
     }
     source_.emit_together(scene_, light, emitted, lanes_.width());
     for (std::size_t i = 0; i < emitted.size(); ++i)

@@ -38,21 +38,37 @@ void scatter_henyey_greenstein(optics::Ray& ray, double g, bool forward, core::R
   }
 }
 
+/// Cosine to the field of polarised light of the direction of Rayleigh scattering, of density 3/4 (1 - c^2):
+/// the middle one of three uniform numbers u has the density 6 u (1 - u), and c = 2 u - 1.
+double cosine_across_field(core::Rng& rng) {
+  const double a = rng.uniform(), b = rng.uniform(), c = rng.uniform();
+  return 2.0 * std::max(std::min(a, b), std::min(std::max(a, b), c)) - 1.0;
+}
+
+/// Cosine of the angle of Rayleigh scattering of unpolarised light, of density 3/8 (1 + c^2).
+double cosine_of_unpolarised(core::Rng& rng) {
+  for (;;) {
+    const double cosine = 2.0 * rng.uniform() - 1.0;
+    if (rng.uniform() < 0.5 * (1.0 + cosine * cosine)) return cosine;
+  }
+}
+
 }  // namespace
 
 void scatter_rayleigh(optics::Ray& ray, core::Rng& rng) {
   if (ray.keeps_phases) [[unlikely]]
     return scatter_elliptical(ray, rng);
   const bool polarised = !ray.polarisation.isZero(0.0);
-  for (;;) {
-    const core::Vec3 direction = core::sample_isotropic(rng);
-    const double along = direction.dot((polarised ? ray.polarisation : ray.direction).vec());
-    const double weight = polarised ? 1.0 - along * along : 0.5 * (1.0 + along * along);
-    if (rng.uniform() >= weight) continue;
-    if (polarised) ray.polarisation = (ray.polarisation - along * direction).normalized();
-    ray.direction = direction;
-    return;
-  }
+  const core::Triple<double> axis = core::triple((polarised ? ray.polarisation : ray.direction).vec());
+  const double cosine = polarised ? cosine_across_field(rng) : cosine_of_unpolarised(rng);
+  const double sine = std::sqrt(1.0 - cosine * cosine);
+  const core::Triple<double> across = core::across_at<double>(axis, core::sample_circle(rng));
+  ray.direction = core::vec(cosine * axis + sine * across);
+  if (!polarised) return;
+  // The field's component across the new direction; of unit length but for rounding, which a step of Newton's
+  // method removes.
+  const core::Triple<double> field = sine * axis - cosine * across;
+  ray.polarisation = core::vec((1.5 - 0.5 * dot(field, field)) * field);
 }
 
 bool scatter_at_particles(const scene::Scene& scene, core::MediumId id, source::Photon& photon,

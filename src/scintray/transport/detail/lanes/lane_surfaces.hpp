@@ -142,30 +142,30 @@ class LaneSurfaces : protected LanePhotons<Real, kOneWavelength> {
   };
   static Exits exits_of(const LookedUp& found, const Mask& leaves, const Mask& reflected, const Real& share,
                         const Levels& at) {
-    static constexpr float kNone[4] = {};
+    static constexpr float kNoPolar[4] = {};
+    static constexpr std::uint16_t kNoAzimuth[4] = {};
     alignas(64) std::uint64_t row[kWidth], cell[kWidth];
     const Real rows = at.first_row + at.polar.number;
     core::whole_bits_of(rows).store(row);
     core::whole_bits_of(rows * Real(optics::kAzimuthEdges) + at.azimuth.number).store(cell);
     const unsigned lanes = lanes_of(leaves), ways = lanes_of(reflected);
     const float* polar[kWidth];
-    const double* azimuth[kWidth];
+    const std::uint16_t* azimuth[kWidth];
     for (std::size_t lane = 0; lane < kWidth; ++lane) {
-      polar[lane] = kNone, azimuth[lane] = reinterpret_cast<const double*>(kNone);
+      polar[lane] = kNoPolar, azimuth[lane] = kNoAzimuth;
       if ((lanes >> lane & 1) == 0) continue;
       const unsigned way = ways >> lane & 1;
       polar[lane] = found.view[lane]->polar[way] + 2 * static_cast<std::uint32_t>(row[lane]);
-      azimuth[lane] = reinterpret_cast<const double*>(found.view[lane]->azimuth[way] +
-                                                      2 * static_cast<std::uint32_t>(cell[lane]));
+      azimuth[lane] = found.view[lane]->azimuth[way] + 2 * static_cast<std::uint32_t>(cell[lane]);
     }
     LaneFours<Real> polars;
     load_four_floats(polar, polars);
-    Real codes;
-    load_ones(azimuth, codes);
+    Bits codes;
+    load_four_shorts(azimuth, codes);
     const optics::TableQuantiles<Real> of_polar{{polars.of[0], polars.of[1]}, {polars.of[2], polars.of[3]}};
-    return {of_polar.at(at.polar.part, share),
-            Real(optics::azimuth_step_rad(true)) *
-                optics::azimuth_codes<Real>(bits_of(codes)).at(at.azimuth.part, share)};
+    return {
+        of_polar.at(at.polar.part, share),
+        Real(optics::azimuth_step_rad(true)) * optics::azimuth_codes<Real>(codes).at(at.azimuth.part, share)};
   }
 
   /// As optics::SurfaceTable::interact, of a table with folded azimuths.
