@@ -98,15 +98,31 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("A mirror draws no number for the kind of its reflection, a sheet of both kinds does") {
-  for (const auto& [specular, drawn] : {std::pair{1.0, 1}, std::pair{0.999999, 2}}) {
-    Rng rng(5, StreamKind::other, 0);
-    Ray ray = arriving(Side::inside, 0.6, rng);
-    const std::uint64_t before = rng.position();
-    const SurfaceOutcome outcome =
-        painted(sheet(1.0, 0.0, specular)).interact(ray, Side::inside, kSheetNormal, {1.5, 1.5}, 420.0, rng);
-    CHECK(outcome == SurfaceOutcome::inside);
-    CHECK(rng.position() - before == static_cast<std::uint64_t>(drawn));
+TEST_CASE("One number decides between absorption and reflection of either kind") {
+  constexpr double kReflectance = 0.8;
+  for (const double specular : {0.0, 0.25, 1.0}) {
+    const Surface paint = painted(sheet(kReflectance, 0.0, specular));
+    std::uint64_t mirrored = 0, scattered = 0;
+    constexpr std::uint64_t kRays = 20'000;
+    for (std::uint64_t i = 0; i < kRays; ++i) {
+      Rng rng(5, StreamKind::other, i);
+      Ray ray = arriving(Side::inside, 0.6, rng);
+      const Ray before = ray;
+      Rng next = rng;
+      const double u = next.uniform();
+      if (paint.interact(ray, Side::inside, kSheetNormal, {1.5, 1.5}, 420.0, rng) != SurfaceOutcome::inside) {
+        CHECK(u >= kReflectance);
+        continue;
+      }
+      Ray mirror = before;
+      reflect(mirror, kSheetNormal);
+      const bool is_mirrored = ray.direction == mirror.direction;
+      CHECK(is_mirrored == (u < specular * kReflectance));
+      if (is_mirrored) CHECK(rng.bits() == next.bits());
+      ++(is_mirrored ? mirrored : scattered);
+    }
+    CHECK(sigmas(binomial_estimate(mirrored, kRays), {specular * kReflectance, 0.0}) < kSigmas);
+    CHECK(sigmas(binomial_estimate(scattered, kRays), {(1.0 - specular) * kReflectance, 0.0}) < kSigmas);
   }
 }
 

@@ -1,9 +1,7 @@
 // Laws over a number type against those for one photon.
-#include <array>
 #include <cmath>
 
 #include "physics/lane_widths.hpp"
-#include "scintray/core/philox_laws.hpp"
 #include "scintray/core/sampling.hpp"
 #include "scintray/core/sampling_laws.hpp"
 
@@ -22,7 +20,7 @@ TEST_CASE("Laws over a number type have the bits of those for one photon") {
   };
   int different = 0;
   const auto require = [&](bool holds) { different += holds ? 0 : 1; };
-  for (std::uint64_t i = 0; i < 2'000; ++i) {
+  for (int i = 0; i < 2'000; ++i) {
     const Vec3 a = sample_isotropic(rng), b = sample_isotropic(rng);
     const Vec3 sum = a + 2.0 * b;
     require(same_bits(dot(triple(a), triple(b)), a.dot(b)));
@@ -39,10 +37,6 @@ TEST_CASE("Laws over a number type have the bits of those for one photon") {
     require(same_bits(laws::log(u), core::log(u)));
     require(same_angle(laws::sincos(7.0 * u), core::sincos(7.0 * u)));
     require(same_angle(laws::sincos_of_turn(u), core::sincos_of_turn(u)));
-    const std::uint64_t key = rng.bits();
-    const PhiloxBlock<std::uint64_t> block({i, 2, key, 4}, PhiloxKeys<std::uint64_t>(key, 6));
-    const std::array<std::uint64_t, 4> expected = philox4x64({i, 2, key, 4}, {key, 6});
-    for (std::size_t k = 0; k < 4; ++k) require(block.words[k] == expected[k]);
   }
   CHECK(different == 0);
 }
