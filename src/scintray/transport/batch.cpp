@@ -75,8 +75,8 @@ class Batch::Tracing {
     std::uint64_t index = 0;                                 ///< of all photons
     std::uint32_t segments = 0;                              ///< of the present step so far
     std::uint64_t segments_before = 0, resolved_before = 0;  ///< as of TracedPhoton
-    core::RegionId angles_of;  ///< region and wavelength of its least_sin2_; none: not set
-    double angles_nm = 0.0;
+    core::RegionId faces_of;  ///< region and wavelength of its numbers of faces; none: not set
+    double faces_nm = 0.0;
   };
   /// A photon to be propagated in lanes.
   struct Waiting {
@@ -97,10 +97,15 @@ class Batch::Tracing {
   void trace_alone(std::uint32_t traveller);
   void trace_in_lanes();
   void propagate(const Waiting* first, const Waiting* last);
-  /// Sets all of `work` but the results, in place: copying what was just written would stall.
-  void set_work(std::uint32_t traveller, const LaneFaces& faces, LaneWork& work);
-  void set_critical_angles(Traveller& traveller, const LaneFaces& faces, double* least_sin2) const;
-  void finish(const LaneWork& work, const LaneFaces& faces, std::uint32_t traveller);
+  /// Sets all of a traveller's work but the results, in place: copying what was just written would stall.
+  void set_work(std::uint32_t traveller);
+  void set_faces(Traveller& traveller, const LaneFaces& faces, double* least_sin2,
+                 double* index_behind) const;
+  /// Reflects or refracts those of refracted_.
+  void refract(core::AcceleratorId accelerator);
+  void finish(const LaneFaces& faces, std::uint32_t traveller);
+  /// Sets a photon, its stream and segments to what the lanes have made of it.
+  void take_back(std::uint32_t traveller);
   /// True when the photon continues after the step; else its end is recorded, and the next photon replaces
   /// it.
   bool goes_on(Traveller& traveller, const Step& taken);
@@ -116,10 +121,12 @@ class Batch::Tracing {
   core::IdVector<core::AcceleratorId, LaneFaces> faces_;  ///< of those of LaneKind::smooth
   std::size_t most_faces_ = 0;
   std::vector<Traveller> travellers_;
-  std::vector<double> least_sin2_;  ///< per traveller and face: critical angles, most_faces_ each
-  std::vector<std::uint32_t> ended_, alone_, for_surface_lanes_;
+  std::vector<LaneWork> work_;  ///< per traveller
+  /// As of LaneWork, per traveller and face, most_faces_ each.
+  std::vector<double> least_sin2_, index_behind_;
+  std::vector<std::uint32_t> ended_, alone_, for_surface_lanes_, refracted_;
   std::vector<Waiting> waiting_, in_lanes_;
-  std::vector<LaneWork> work_;
+  std::vector<LaneWork*> together_;  ///< the work of a kernel
   EndsInOrder ends_;
   BatchCounts counts_;
   std::uint64_t next_ = 0, count_ = 0;  ///< number of the next photon to start, and of all
@@ -147,7 +154,7 @@ Batch::Tracing::Tracing(const scene::Scene& scene, const PropagationLimits& limi
     const core::RegionId region(i);
     const core::AcceleratorId accelerator = scene.regions[region].accelerator;
     if (lanes.kind(region) != LaneKind::smooth || !faces_[accelerator].list().empty()) continue;
-    faces_[accelerator] = LaneFaces(*scene.accelerators[accelerator]);
+    faces_[accelerator] = LaneFaces(scene, scene.regions[region]);
     most_faces_ = std::max(most_faces_, faces_[accelerator].list().size());
   }
 }
@@ -160,7 +167,9 @@ void Batch::Tracing::trace(std::uint64_t count, Emit emit, End end) {
   ends_.begin();
   const std::size_t most = most_faces_ > 0 ? kTravellers : kPoolTravellers;
   travellers_.resize(std::min<std::uint64_t>(count, most));
+  if (most_faces_ > 0) work_.resize(travellers_.size());
   least_sin2_.resize(travellers_.size() * most_faces_);
+  index_behind_.resize(travellers_.size() * most_faces_);
   ended_.clear();
   for (std::uint32_t i = 0; i < travellers_.size(); ++i) ended_.push_back(i);
   for (start(); in_flight(); start()) {
@@ -205,6 +214,7 @@ void Batch::Tracing::enqueue(std::uint32_t index) {
       alone_.push_back(index);
       break;
     case LaneKind::smooth:
+      set_work(index);
       waiting_.push_back({scene_.regions[photon.region].accelerator, index});
       break;
     case LaneKind::surfaces:
@@ -260,58 +270,118 @@ void Batch::Tracing::propagate(const Waiting* first, const Waiting* last) {
   const auto count = static_cast<std::size_t>(last - first);
   counts_.grouped += count;
   ++counts_.groups;
-  if (work_.size() < count) work_.resize(count);
-  for (std::size_t i = 0; i < count; ++i) set_work(first[i].traveller, faces, work_[i]);
+  together_.clear();
+  for (const Waiting* waiting = first; waiting != last; ++waiting)
+    together_.push_back(&work_[waiting->traveller]);
   if (faces.has_quadrics())
-    kernels_.propagate_in_body(faces.body(), limits, work_.data(), count);
+    kernels_.propagate_in_body(faces.body(), limits, together_.data(), count);
   else
-    kernels_.propagate(faces.planes(), limits, work_.data(), count);
-  for (std::size_t i = 0; i < count; ++i) finish(work_[i], faces, first[i].traveller);
+    kernels_.propagate(faces.planes(), limits, together_.data(), count);
+  refracted_.clear();
+  for (const Waiting* waiting = first; waiting != last; ++waiting) {
+    LaneWork& work = work_[waiting->traveller];
+    if (work.end == LaneEnd::unfinished) {
+      travellers_[waiting->traveller].segments += work.segments;
+      waiting_.push_back(*waiting);
+    } else if (work.end == LaneEnd::boundary && work.index_behind[work.face] > 0.0) {
+      work.index_there = work.index_behind[work.face];
+      refracted_.push_back(waiting->traveller);
+    } else {
+      finish(faces, waiting->traveller);
+    }
+  }
+  if (!refracted_.empty()) refract(first->accelerator);
 }
 
-void Batch::Tracing::set_work(std::uint32_t index, const LaneFaces& faces, LaneWork& work) {
+void Batch::Tracing::refract(core::AcceleratorId accelerator) {
+  const LaneFaces& faces = faces_[accelerator];
+  together_.clear();
+  for (const std::uint32_t index : refracted_) together_.push_back(&work_[index]);
+  kernels_.refract(faces.normals(), together_.data(), together_.size());
+  for (const std::uint32_t index : refracted_) {
+    Traveller& traveller = travellers_[index];
+    LaneWork& work = work_[index];
+    if (work.index != work.index_there) work.interactions += 1.0;
+    if (work.transmitted == 0 && limits_.allow(static_cast<std::uint64_t>(work.interactions), work.time_ns)) {
+      traveller.segments_before += work.segments + std::exchange(traveller.segments, 0);
+      waiting_.push_back({accelerator, index});
+      continue;
+    }
+    take_back(index);
+    const BoundaryPlace at{faces.list()[work.face].triangle, work.cosine};
+    const Step step =
+        work.transmitted != 0 ? cross_boundary(scene_, at, traveller.photon) : reflected_in_lanes();
+    if (goes_on(traveller, step))
+      enqueue(index);
+    else
+      ended_.push_back(index);
+  }
+}
+
+void Batch::Tracing::set_work(std::uint32_t index) {
   Traveller& traveller = travellers_[index];
   const source::Photon& photon = traveller.photon;
+  const LaneFaces& faces = faces_[scene_.regions[photon.region].accelerator];
   double* const least_sin2 = least_sin2_.data() + index * most_faces_;
-  if (traveller.angles_of != photon.region || traveller.angles_nm != photon.wavelength_nm)
-    set_critical_angles(traveller, faces, least_sin2);
+  double* const index_behind = index_behind_.data() + index * most_faces_;
+  if (traveller.faces_of != photon.region || traveller.faces_nm != photon.wavelength_nm)
+    set_faces(traveller, faces, least_sin2, index_behind);
+  LaneWork& work = work_[index];
   give_photon(scene_, photon, work);
+  work.index = photon.optics.index;
+  work.stream[0] = traveller.rng.state().first;
+  work.stream[1] = traveller.rng.state().second;
   work.least_sin2 = least_sin2;
+  work.index_behind = index_behind;
   work.left = faces.left_at(photon.on_triangle);
 }
 
-void Batch::Tracing::set_critical_angles(Traveller& traveller, const LaneFaces& faces,
-                                         double* least_sin2) const {
+void Batch::Tracing::set_faces(Traveller& traveller, const LaneFaces& faces, double* least_sin2,
+                               double* index_behind) const {
   const source::Photon& photon = traveller.photon;
   const scene::Region& region = scene_.regions[photon.region];
   const scene::BoundaryLink* const links = scene_.links_of(region);
+  const bool refracts = kernels_.refract && !faces.has_quadrics() && !scene_.keeps_phases &&
+                        scene_.optics.birefringent.empty() && !region.thin_gaps;
   core::MediumId known_medium;
-  double known_sin2 = kNoTotalReflection;
+  double known_sin2 = kNoTotalReflection, known_index = 0.0;
   for (const LaneFaces::Face& face : faces.list()) {
     if (face.mixed) {
       *least_sin2++ = kManyRegions;
+      *index_behind++ = 0.0;
       continue;
     }
     const core::MediumId medium = links[face.triangle].smooth_to;
     if (medium != known_medium) {
       known_medium = medium;
       known_sin2 = critical_sin2(scene_, medium, photon);
+      known_index = medium.has_value() && !scene_.optics.is_opaque(medium)
+                        ? scene_.optics.index(medium, photon.wavelength_nm)
+                        : 0.0;
     }
     *least_sin2++ = known_sin2;
+    *index_behind++ = refracts ? known_index : 0.0;
   }
-  traveller.angles_of = photon.region;
-  traveller.angles_nm = photon.wavelength_nm;
+  traveller.faces_of = photon.region;
+  traveller.faces_nm = photon.wavelength_nm;
 }
 
-void Batch::Tracing::finish(const LaneWork& work, const LaneFaces& faces, std::uint32_t index) {
+void Batch::Tracing::take_back(std::uint32_t index) {
+  Traveller& traveller = travellers_[index];
+  const LaneWork& work = work_[index];
+  take_photon(work, traveller.photon);
+  traveller.rng.go_on_from({work.stream[0], work.stream[1]});
+  traveller.segments += work.segments;
+}
+
+void Batch::Tracing::finish(const LaneFaces& faces, std::uint32_t index) {
   Traveller& traveller = travellers_[index];
   source::Photon& photon = traveller.photon;
-  take_photon(work, photon);
+  const LaneWork& work = work_[index];
+  take_back(index);
   if (faces.has_quadrics() && work.left != faces.left_at(photon.on_triangle))
     photon.on_triangle = faces.list()[static_cast<std::size_t>(work.left)].triangle;
-  traveller.segments += work.segments;
   if (work.end == LaneEnd::unclear) return alone_.push_back(index);
-  if (work.end == LaneEnd::unfinished) return enqueue(index);
   Propagation propagation;
   if (work.end != LaneEnd::bulk) {
     propagation.end = work.end == LaneEnd::total ? PropagationEnd::total : PropagationEnd::boundary;

@@ -30,19 +30,6 @@ struct LanePlaces {
   [[gnu::always_inline]] LanePlaces operator+(std::size_t lanes) const { return {records + lanes, bytes}; }
 };
 
-/// Stores four 64-bit numbers of each lane at two places of its own.
-static inline void store_fours(const LaneBits<xsimd::sse2>* words, std::uint64_t* const* first,
-                               std::uint64_t* const* second) {
-  for (int half = 0; half < 2; ++half) {
-    const __m128i a = words[2 * half].lanes, b = words[2 * half + 1].lanes;
-    const __m128i lanes[2] = {_mm_unpacklo_epi64(a, b), _mm_unpackhi_epi64(a, b)};
-    for (int lane = 0; lane < 2; ++lane) {
-      _mm_storeu_si128(reinterpret_cast<__m128i*>(first[lane] + 2 * half), lanes[lane]);
-      _mm_storeu_si128(reinterpret_cast<__m128i*>(second[lane] + 2 * half), lanes[lane]);
-    }
-  }
-}
-
 template <typename At>
 void load_fours(const At& at, LaneFours<LaneReal<xsimd::sse2>>& to) {
   for (int half = 0; half < 2; ++half) {
@@ -124,14 +111,6 @@ void store_by_lane(const LaneBitsPair<Arch>* words, const Store& store) {
   store_by_lane(b, [&](int lane, __m256i four) { store(lane + kHalf, four); });
 }
 
-/// As for two lanes.
-template <typename Bits>
-void store_fours(const Bits* words, std::uint64_t* const* first, std::uint64_t* const* second) {
-  store_by_lane(words, [&](int lane, __m256i four) {
-    _mm256_storeu_si256(reinterpret_cast<__m256i*>(first[lane]), four);
-    _mm256_storeu_si256(reinterpret_cast<__m256i*>(second[lane]), four);
-  });
-}
 /// Stores four numbers of each lane at places of these.
 template <typename Real, typename Record>
 void store_fours(const LaneFours<Real>& fours, const LanePlaces<Record>& to) {

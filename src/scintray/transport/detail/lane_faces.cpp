@@ -31,9 +31,14 @@ LaneBody::Face numbers_of(const scene::BodyQuadric& quadric) {
 
 }  // namespace
 
-LaneFaces::LaneFaces(const scene::Accelerator& accelerator) : boundary_(&accelerator.boundary()) {
-  for (const scene::BoundingPlane& plane : boundary_->planes)
+LaneFaces::LaneFaces(const scene::Scene& scene, const scene::Region& region)
+    : boundary_(&scene.accelerator(region).boundary()) {
+  const scene::Accelerator& accelerator = scene.accelerator(region);
+  for (const scene::BoundingPlane& plane : boundary_->planes) {
     list_.push_back({plane.first, plane.triangles_begin != plane.triangles_end});
+    const core::Vec3 normal = scene.normal(region, plane.first);
+    normals_.push_back({{normal.x(), normal.y(), normal.z(), 0.0}});
+  }
   if (!accelerator.is_convex_body()) return;
   const scene::ExactBodies& exact = boundary_->exact;
   const scene::ExactBody& body = exact.bodies.front();

@@ -21,8 +21,8 @@ namespace scintray::transport {
 class LaneFaces {
  public:
   LaneFaces() = default;
-  /// @param accelerator  bounded by planes, or one convex body; must outlive this
-  explicit LaneFaces(const scene::Accelerator& accelerator);
+  /// @param region  not rotated; bounded by planes, or one convex body. The scene must outlive this
+  LaneFaces(const scene::Scene& scene, const scene::Region& region);
 
   struct Face {
     std::uint32_t triangle;  ///< of the region's boundary, on it
@@ -32,6 +32,8 @@ class LaneFaces {
   bool has_quadrics() const { return !numbers_.empty(); }
   LanePlanes planes() const;
   LaneBody body() const;
+  /// Per face, where all are planes.
+  const LaneNormal* normals() const { return normals_.data(); }
   /// The face that a triangle is on, as LaneWork::left: kNoFace for planes, and for no triangle.
   double left_at(std::uint32_t triangle) const;
 
@@ -39,8 +41,9 @@ class LaneFaces {
   const scene::Boundary* boundary_ = nullptr;
   std::vector<Face> list_;
   std::vector<LaneBody::Face> numbers_;  ///< of a body
-  std::uint32_t flat_ = 0;               ///< of these, the first: planes
-  bool cylinders_ = false;               ///< all others are cylinders
+  std::vector<LaneNormal> normals_;
+  std::uint32_t flat_ = 0;  ///< of these, the first: planes
+  bool cylinders_ = false;  ///< all others are cylinders
 };
 
 /// Planes, gaps and faces of the regions of LaneKind::surfaces. What depends on the wavelength is apart, as

@@ -76,7 +76,14 @@ std::optional<Eigen::AlignedBox3d> ambient_bounds(const scene::Scene& scene);
 /// @param bounds  ambient_bounds()
 bool leaves_the_scene(const scene::Scene& scene, const std::optional<Eigen::AlignedBox3d>& bounds,
                       const source::Photon& photon, const Step& taken);
-/// The step of such light.
+/// The step of a photon that was last reflected in lanes, which count its segments.
+inline Step reflected_in_lanes() {
+  Step step;
+  step.event = core::StepEvent::reflected;
+  step.segments = 0;
+  return step;
+}
+/// The step of light that leaves_the_scene().
 inline Step step_out_of_scene() {
   Step step;
   step.event = core::StepEvent::escaped;

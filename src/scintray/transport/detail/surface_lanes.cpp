@@ -10,14 +10,6 @@ namespace scintray::transport {
 
 namespace {
 
-/// The step of a photon that was last reflected. Its segments are counted by the lanes.
-Step reflected_in_lanes() {
-  Step step;
-  step.event = core::StepEvent::reflected;
-  step.segments = 0;
-  return step;
-}
-
 /// For lanes that have no photon.
 const LaneRecord* empty_optics() {
   static const LaneRecord records[3] = {};

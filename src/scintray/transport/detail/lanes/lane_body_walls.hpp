@@ -138,7 +138,7 @@ class LaneBodyWalls {
 /// Inlined, so that a profile has the time under the name of the kernel, which is known outside its file.
 template <typename Real>
 [[gnu::always_inline]] inline void propagate_in_body(const LaneBody& body, const LaneLimits& limits,
-                                                     LaneWork* photons, std::size_t count) {
+                                                     LaneWork* const* photons, std::size_t count) {
   using mesh::QuadricShape;
   if (body.cylinders)
     LanePropagation<LaneSet<LaneBodyWalls<Real, QuadricShape::cylinder>>, 1>::run(body, limits, photons,

@@ -144,7 +144,7 @@ class LaneBoxSet : public LaneSlots<Real> {
 /// vectors take turns: each waits for its divisions and selections for half of a pass.
 template <typename Real>
 [[gnu::always_inline]] inline void propagate_in_box(const LanePlanes& box, const LaneLimits& limits,
-                                                    LaneWork* photons, std::size_t count) {
+                                                    LaneWork* const* photons, std::size_t count) {
   LanePropagation<LaneBoxSet<Real>, 2>::run(box, limits, photons, count);
 }
 

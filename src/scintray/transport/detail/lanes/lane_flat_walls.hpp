@@ -99,8 +99,8 @@ class LaneFlatWalls {
 /// Inlined, so that a profile has the time under the name of the kernel, which is known outside its file.
 template <typename Real>
 [[gnu::always_inline]] inline void propagate_between_planes(const LanePlanes& planes,
-                                                            const LaneLimits& limits, LaneWork* photons,
-                                                            std::size_t count) {
+                                                            const LaneLimits& limits,
+                                                            LaneWork* const* photons, std::size_t count) {
   if constexpr (Real::kWidth >= 8)
     if (planes.count <= kFewPlanes)
       return LanePropagation<LaneSet<LaneFlatWalls<Real, true>>, 1>::run(planes, limits, photons, count);

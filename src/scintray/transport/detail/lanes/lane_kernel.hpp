@@ -58,20 +58,33 @@ inline constexpr double kManyRegions = 4.0;        ///< a face that leads to sev
 /// Of LaneWork::left.
 inline constexpr double kNoFace = -1.0;
 
-/// A photon to be propagated through its region, whose frame must not be rotated.
+/// A photon to be propagated through its region, whose frame must not be rotated. Rows of four numbers are
+/// loaded and stored at once.
 struct LaneWork {
-  double position[3], direction[3], polarisation[3];  ///< world, mm
-  double path_mm, time_ns, depth_left;                ///< as of source::Photon
-  double group_index, attenuation_per_mm;             ///< absorption and scattering together
-  double interactions;                                ///< boundary interactions so far: a whole number
-  double centre[3];                                   ///< origin of the region's frame
+  double position[3], path_mm;  ///< world, mm; these and the next two rows as of source::Photon
+  double direction[3], time_ns;
+  double polarisation[3], depth_left;
+  double index, index_there;  ///< refractive indices of the region and behind the face that it is at
+  std::uint64_t stream[2];    ///< of random numbers: core::Rng::State
+  double group_index, attenuation_per_mm;  ///< absorption and scattering together
+  double interactions;                     ///< boundary interactions so far: a whole number
+  double centre[3];                        ///< origin of the region's frame
   const double* least_sin2;  ///< per face: sine squared of the angle from which light is totally reflected
+  /// Per face: refractive index behind it, where Fresnel's equations alone decide what light does there and
+  /// it is flat; else 0.
+  const double* index_behind;
   double left;  ///< of a body: face at which the photon is, as it was reflected there; kNoFace: at none
   // Results.
   double cosine;           ///< of incidence on the face, at a boundary and at a total reflection
   std::uint32_t face;      ///< reached, or unclear; not for LaneEnd::bulk and unfinished
   std::uint32_t segments;  ///< straight segments; the last of an unclear end is not counted
   LaneEnd end;
+  std::uint32_t transmitted;  ///< of RefractLanes: 1 when light is transmitted, and not reflected
+};
+
+/// Normal of a flat face, of unit length and out of the region.
+struct LaneNormal {
+  double of[4];  ///< the fourth is not used
 };
 
 /// Limits as of PropagationLimits.
@@ -79,20 +92,28 @@ struct LaneLimits {
   double interactions, time_ns;
 };
 
-/// Propagates each of `count` photons, one or more, to its end, exactly as propagate() does it one by one; of
-/// more than fill the lanes the last ones may be left unfinished, so that lanes are not empty.
-using PropagateLanes = void (*)(const LanePlanes& planes, const LaneLimits& limits, LaneWork* photons,
+/// Propagates each of `count` photons, one or more, wherever they are, to its end, exactly as propagate()
+/// does it one by one; of more than fill the lanes the last ones may be left unfinished, so that lanes are
+/// not empty.
+using PropagateLanes = void (*)(const LanePlanes& planes, const LaneLimits& limits, LaneWork* const* photons,
                                 std::size_t count);
 
-using PropagateLanesInBody = void (*)(const LaneBody& body, const LaneLimits& limits, LaneWork* photons,
-                                      std::size_t count);
+using PropagateLanesInBody = void (*)(const LaneBody& body, const LaneLimits& limits,
+                                      LaneWork* const* photons, std::size_t count);
+
+/// Reflects or refracts each of `count` photons, one or more, at its face, as optics::interact_at_facet.
+/// @param normals  of the faces
+using RefractLanes = void (*)(const LaneNormal* normals, LaneWork* const* photons, std::size_t count);
 
 // One for each width that this build has; defined where its instruction set is compiled.
-void propagate_lanes_2(const LanePlanes&, const LaneLimits&, LaneWork*, std::size_t);
-void propagate_lanes_4(const LanePlanes&, const LaneLimits&, LaneWork*, std::size_t);
-void propagate_lanes_8(const LanePlanes&, const LaneLimits&, LaneWork*, std::size_t);
-void propagate_lanes_in_body_2(const LaneBody&, const LaneLimits&, LaneWork*, std::size_t);
-void propagate_lanes_in_body_4(const LaneBody&, const LaneLimits&, LaneWork*, std::size_t);
-void propagate_lanes_in_body_8(const LaneBody&, const LaneLimits&, LaneWork*, std::size_t);
+void propagate_lanes_2(const LanePlanes&, const LaneLimits&, LaneWork* const*, std::size_t);
+void propagate_lanes_4(const LanePlanes&, const LaneLimits&, LaneWork* const*, std::size_t);
+void propagate_lanes_8(const LanePlanes&, const LaneLimits&, LaneWork* const*, std::size_t);
+void propagate_lanes_in_body_2(const LaneBody&, const LaneLimits&, LaneWork* const*, std::size_t);
+void propagate_lanes_in_body_4(const LaneBody&, const LaneLimits&, LaneWork* const*, std::size_t);
+void propagate_lanes_in_body_8(const LaneBody&, const LaneLimits&, LaneWork* const*, std::size_t);
+
+void refract_lanes_4(const LaneNormal*, LaneWork* const*, std::size_t);
+void refract_lanes_8(const LaneNormal*, LaneWork* const*, std::size_t);
 
 }  // namespace scintray::transport

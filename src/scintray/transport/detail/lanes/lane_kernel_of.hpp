@@ -221,14 +221,14 @@ class LanePropagation {
 
  public:
   [[gnu::flatten]] static void run(const typename Set::Region& region, const LaneLimits& limits,
-                                   LaneWork* photons, std::size_t count) {
-    Sets lanes = sets(region, limits, *photons, std::make_index_sequence<kSets>());
-    LaneWork *next = photons, *const last = photons + count;
+                                   LaneWork* const* photons, std::size_t count) {
+    Sets lanes = sets(region, limits, **photons, std::make_index_sequence<kSets>());
+    LaneWork *const *next = photons, *const *const last = photons + count;
     int busy = 0;
     for (std::size_t lane = 0; lane < Set::kWidth; ++lane)
       for (Set& set : lanes.of) {
         if (next == last) break;
-        set.fill(lane, *next++);
+        set.fill(lane, **next++);
         ++busy;
       }
     const bool hands_back = static_cast<int>(count) > busy;
@@ -239,7 +239,7 @@ class LanePropagation {
           const auto lane = static_cast<std::size_t>(__builtin_ctz(ended));
           set.give_back(lane, set.ending(lane));
           if (next != last)
-            set.fill(lane, *next++);
+            set.fill(lane, **next++);
           else
             --busy;
         }

@@ -10,7 +10,9 @@ namespace scintray::transport {
 struct LaneKernels {
   PropagateLanes propagate = nullptr;
   PropagateLanesInBody propagate_in_body = nullptr;
-  RunLanes run = nullptr;  ///< null for width 2 as well, which is slower than photons one by one
+  // Null for width 2 as well.
+  RefractLanes refract = nullptr;
+  RunLanes run = nullptr;  ///< of two lanes slower than photons one by one
 };
 
 /// @param width  of lane_widths()

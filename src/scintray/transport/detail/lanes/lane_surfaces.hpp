@@ -3,8 +3,8 @@
 
 #include "scintray/core/sampling_laws.hpp"
 #include "scintray/optics/facet_laws.hpp"
-#include "scintray/optics/fresnel_laws.hpp"
 #include "scintray/transport/detail/lanes/lane_photons.hpp"
+#include "scintray/transport/detail/lanes/lane_refraction.hpp"
 
 namespace scintray::transport {
 namespace {
@@ -59,8 +59,8 @@ class LaneSurfaces : protected LanePhotons<Real, kOneWavelength> {
     const Bits for_fresnel = random.next();
     const Mask inside = now.side > Real(0.0);
     const Real index = load(index_);
-    const Refracted after = refract(now.light, m, select(inside, index, now.index_behind),
-                                    select(inside, now.index_behind, index), for_fresnel);
+    const RefractedIn<Real> after = refract(now.light, m, select(inside, index, now.index_behind),
+                                            select(inside, now.index_behind, index), for_fresnel);
     now.light = select(ready, after.light, now.light);
     now.side = select(ready & after.transmitted, -now.side, now.side);
     const Real outward = now.side * dot(now.light.direction, now.normal);
@@ -70,38 +70,6 @@ class LaneSurfaces : protected LanePhotons<Real, kOneWavelength> {
     const Real next = select(now.side > Real(0.0), Real(lane_state::kReflected), through);
     now.state = select(left, next, now.state);
     go_on_from(random, ready & after.drawn);
-  }
-
-  struct Refracted {
-    Light light;
-    Mask transmitted;
-    Mask drawn;  ///< the random number was used
-  };
-  /// As optics::interact_at_facet.
-  static Refracted refract(const Light& light, const Vector& m, const Real& n1, const Real& n2,
-                           const Bits& random) {
-    const Real cos_i = cos_incidence(light, m);
-    const optics::RefractionOf<Real> refraction(cos_i, n1, n2);
-    const Mask total = refraction.total(), unpolarised = is_zero(light.polarisation);
-    optics::FacetLight<Real> facet(light, m, cos_i, refraction, n1, n2);
-    const Mask straight = (!unpolarised) & (refraction.sin2_i < Real(optics::kNormalIncidence));
-    const Real uniform = core::uniform_of<Real>(random);
-    Mask transmitted = facet.transmits_polarised(uniform);
-    const Mask others = unpolarised | straight;
-    if (any(others))
-      transmitted = (transmitted & !others) | (unpolarised & facet.transmits_unpolarised(uniform)) |
-                    (straight & facet.transmits_straight(uniform));
-    transmitted = transmitted & !total;
-    Vector direction = select(transmitted, facet.refracted(), facet.mirrored());
-    Vector polarisation = facet.polarised(transmitted, direction);
-    if (any(others | total)) {
-      const Mask goes_on = straight & transmitted;
-      direction = select(goes_on, light.direction, direction);
-      polarisation = select(unpolarised | goes_on, light.polarisation, polarisation);
-      polarisation =
-          select(total | (straight & !transmitted), optics::reflected(light, m).polarisation, polarisation);
-    }
-    return {{direction, polarisation}, transmitted, !total};
   }
 
   /// Table and interval for each photon.
