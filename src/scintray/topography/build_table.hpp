@@ -17,7 +17,7 @@ namespace scintray::topography {
 /// with every change after which the same recipe or map file, with the same settings, gives a different
 /// table: in the tracing, the synthesis, the readers of height maps or their preparation. tests/topography/
 /// table_content_test.cpp fails when such a change is made without.
-inline constexpr int kTableContentVersion = 1;
+inline constexpr int kTableContentVersion = 2;
 
 /// Settings of the tracing of a table. The defaults are those of E. Roncali and S. R. Cherry 2013, Phys. Med.
 /// Biol. 58, 2185, section 2.1: 2.25 deg of incidence, 9 deg of azimuth, 2000 rays each.
