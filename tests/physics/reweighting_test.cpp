@@ -3,7 +3,9 @@
 #include "scintray/simulation/reweight.hpp"
 #include "scintray/simulation/simulation.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "physics/traced.hpp"
 #include "scintray/results/results.hpp"
@@ -250,11 +252,17 @@ TEST_CASE("Law: light per event, reweighted, is that of events retraced") {
 TEST_CASE("Where reweighting would be wrong it is not valid") {
   // Traced with an absorption length below the crystal's: the long ways of a clear one are missing.
   const Setup setup{kRoughWrapped, kPhotons};
-  const auto dark = setup.run({3.0, 0.9}, 9700);
-  const auto clear = reweight(dark, {length_of_crystal(1000.0)}).at(0);
-  CHECK_FALSE(clear.light.valid);
   const Estimate truth = read_results(setup.run({1000.0, 0.9}, 9701)).points[0].fraction(Fate::detected);
-  CHECK(sigmas(clear.light.detected_fraction, truth) > kSigmas);  // it would have been wrong
+  std::vector<double> wrong_by;
+  for (std::uint64_t seed = 9710; seed < 9719; ++seed) {
+    const auto dark = setup.run({3.0, 0.9}, seed);
+    const auto clear = reweight(dark, {length_of_crystal(1000.0)}).at(0);
+    CHECK_FALSE(clear.light.valid);
+    wrong_by.push_back(sigmas(clear.light.detected_fraction, truth));
+  }
+  // It would have been wrong; in some runs a single photon of great weight makes value and error large.
+  std::sort(wrong_by.begin(), wrong_by.end());
+  CHECK(wrong_by[wrong_by.size() / 2] > kSigmas);
   const auto black = setup.run({100.0, 0.02}, 9702);
   const auto white = reweight(black, {{reflectance, "side", false, {0.98}}}).at(0);
   CHECK_FALSE(white.light.valid);

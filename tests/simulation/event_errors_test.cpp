@@ -103,7 +103,7 @@ struct Pulls {
   }
 };
 
-constexpr std::uint64_t kRuns = 300;
+constexpr std::uint64_t kRuns = 600;
 constexpr double kEventsOfARun = 60.0;
 
 /// The ratio of the sums of two numbers over all runs.

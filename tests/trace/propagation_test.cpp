@@ -199,4 +199,8 @@ TEST_CASE("A box is inside a region, or reaches into what bounds it") {
   CHECK(contains(rod, middle - Vec3(1, 1, 5), middle + Vec3(1, 1, 5)));
   CHECK_FALSE(
       built.scene.region_contains(kAmbientRegion, Eigen::AlignedBox3d(Vec3(50, 50, 50), Vec3(51, 51, 51))));
+  // From there no ray along the direction of the search hits anything.
+  CHECK(built.scene.region_contains(kAmbientRegion, Vec3(50, 50, 50)));
+  CHECK_FALSE(built.scene.region_contains(kAmbientRegion, Vec3(0.5 * (low + high))));
+  CHECK_FALSE(built.scene.region_contains(crystal.region, Vec3(50, 50, 50)));
 }

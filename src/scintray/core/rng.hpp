@@ -18,10 +18,9 @@ namespace scintray::core {
 /// Family of independent streams that a generator draws from; photons never share numbers with other uses of
 /// the same seed.
 enum class StreamKind : std::uint64_t {
-  photon = 0,     ///< (event, photon)
-  event = 1,      ///< (event, 0): positions and energies of a whole event
-  table = 2,      ///< (incidence node and side, ray): building a surface table
-  synthesis = 3,  ///< synthesising a height map
+  photon = 0,  ///< (event, photon)
+  event = 1,   ///< (event, 0): positions and energies of a whole event
+  table = 2,   ///< (incidence node and side, ray): building a surface table
   other = 4,
   sensor = 5,  ///< (event, channel): noise of a sensor and its electronics
   cell = 6,    ///< (cell, photon) of a grid: building a response map

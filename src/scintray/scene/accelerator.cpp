@@ -385,16 +385,15 @@ bool Accelerator::contains(const core::Vec3& point) const {
                        [&](const BoundingPlane& plane) { return plane.normal.dot(point) <= plane.offset; });
   if (has_exact_bodies()) {
     if (!boundary_.exact.admit(point)) return false;
-    if (!embree_) return boundary_.exact.held;
   }
-  if (!embree_) return false;
+  if (!embree_) return !boundary_.closed;
   // A skew direction avoids the edges of axis-aligned meshes.
   static const core::Vec3 kSkew = core::Vec3(0.57128349, 0.31415927, 0.75829143).normalized();
   const auto ahead = inside_by_embree(point, kSkew);
   if (ahead == Inside::yes || ahead == Inside::no) return ahead == Inside::yes;
   const auto behind = inside_by_embree(point, -kSkew);
   if (behind == Inside::yes || behind == Inside::no) return behind == Inside::yes;
-  if (ahead == Inside::no_hit && behind == Inside::no_hit) return boundary_.exact.held;
+  if (ahead == Inside::no_hit && behind == Inside::no_hit) return !boundary_.closed;
   return inside_by_search(point, kSkew);
 }
 

@@ -97,7 +97,8 @@ class Accelerator {
   }
   [[gnu::cold]] Exit exact_exit(const core::Vec3& origin, const core::Vec3& direction, FirstHit hit) const;
 
-  /// True when `point` is inside the (closed) boundary.
+  /// True when `point` is inside the boundary; of the ambient region, which has no end, when nothing else
+  /// holds it.
   bool contains(const core::Vec3& point) const;
 
   /// Unit normal of a triangle, out of the region.

@@ -1,11 +1,13 @@
 #pragma once
 /// The parts of a synthetic relief. Recipes have been checked before.
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <vector>
 
-#include "scintray/core/rng.hpp"
+#include "scintray/core/philox.hpp"
+#include "scintray/core/sampling_laws.hpp"
 #include "scintray/topography/synthesis.hpp"
 
 namespace scintray::topography {
@@ -20,9 +22,35 @@ enum class ReliefPart : std::uint64_t {
   spectrum = 5,
 };
 
-inline core::Rng relief_random(const SynthesisRecipe& recipe, ReliefPart part) {
-  return core::Rng(recipe.seed, core::StreamKind::synthesis, static_cast<std::uint64_t>(part));
-}
+/// The random numbers of a part: those of Philox alone, in its order, so that a recipe and its seed remain
+/// the same relief whatever photons draw.
+class ReliefRandom {
+ public:
+  ReliefRandom(const SynthesisRecipe& recipe, ReliefPart part)
+      : counter_{0, 0, static_cast<std::uint64_t>(part), 3}, seed_(recipe.seed) {}
+
+  /// Uniform on [0, 1), 53 bits.
+  double uniform() { return static_cast<double>(bits() >> 11) * 0x1.0p-53; }
+  /// Standard normal deviate.
+  double normal() {
+    const double for_radius = static_cast<double>((bits() >> 11) + 1) * 0x1.0p-53;
+    return core::normal_deviates<double>(for_radius, uniform()).first;
+  }
+
+ private:
+  std::uint64_t bits() {
+    if (used_ == block_.size()) {
+      block_ = core::philox4x64(counter_, {seed_, 0});
+      ++counter_[0];
+      used_ = 0;
+    }
+    return block_[used_++];
+  }
+
+  std::array<std::uint64_t, 4> counter_, block_{};
+  std::uint64_t seed_;
+  std::size_t used_ = block_.size();
+};
 
 /// Each function adds its part, um, to the row-major heights of the recipe's grid.
 void add_gaussian(const SynthesisRecipe& recipe, std::vector<double>& heights_um);

@@ -23,15 +23,15 @@ class Bowls {
         width_y_(recipe.rows * recipe.pitch_um),
         half_exponent_(0.5 * recipe.fracture.exponent) {
     const FractureRelief& f = recipe.fracture;
-    core::Rng rng = relief_random(recipe, part);
+    ReliefRandom random(recipe, part);
     // One bowl anywhere in each cell of a grid: no large gap, whose rim would be far above the rest.
     const auto across = static_cast<std::uint32_t>(std::lround(width_x_ / f.spacing_um));
     const auto along = static_cast<std::uint32_t>(std::lround(width_y_ / f.spacing_um));
     for (std::uint32_t k = 0; k < across * along; ++k) {
-      const double x = width_x_ * (k % across + rng.uniform()) / across;
-      const double y = width_y_ * (k / across + rng.uniform()) / along;
-      const double depth = f.depth_spread_um * (2.0 * rng.uniform() - 1.0);
-      const double radius = 0.5 * f.spacing_um * (1.0 + f.size_spread * (2.0 * rng.uniform() - 1.0));
+      const double x = width_x_ * (k % across + random.uniform()) / across;
+      const double y = width_y_ * (k / across + random.uniform()) / along;
+      const double depth = f.depth_spread_um * (2.0 * random.uniform() - 1.0);
+      const double radius = 0.5 * f.spacing_um * (1.0 + f.size_spread * (2.0 * random.uniform() - 1.0));
       bowls_.push_back({x, y, depth, 1.0 / radius});
     }
   }

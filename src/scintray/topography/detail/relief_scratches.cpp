@@ -61,10 +61,11 @@ void add_scratches(const SynthesisRecipe& recipe, std::vector<double>& heights_u
   if (s.spacing_um == 0.0) return;
   const double width_x = recipe.columns * recipe.pitch_um, width_y = recipe.rows * recipe.pitch_um;
   const long number = std::lround(width_x * width_y / (s.spacing_um * s.length_um));
-  core::Rng rng = relief_random(recipe, ReliefPart::scratches);
+  ReliefRandom random(recipe, ReliefPart::scratches);
   for (long k = 0; k < number; ++k) {
-    const double x = width_x * rng.uniform(), y = width_y * rng.uniform(), angle = core::kPi * rng.uniform();
-    difference_on_grid(recipe, {x, y, std::cos(angle), std::sin(angle), s.depth_um * rng.uniform()},
+    const double x = width_x * random.uniform(), y = width_y * random.uniform(),
+                 angle = core::kPi * random.uniform();
+    difference_on_grid(recipe, {x, y, std::cos(angle), std::sin(angle), s.depth_um * random.uniform()},
                        heights_um);
   }
 }

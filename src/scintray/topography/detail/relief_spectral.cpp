@@ -18,9 +18,9 @@ using Density = std::function<double(double fx, double fy)>;
 /// the power N in each of the N terms of its transform; a term of the heights must have
 /// N^2 S / area = N S / pitch^2.
 std::vector<double> realisation(const SynthesisRecipe& recipe, ReliefPart part, const Density& density) {
-  core::Rng rng = relief_random(recipe, part);
+  ReliefRandom random(recipe, part);
   std::vector<double> noise(std::size_t{recipe.columns} * recipe.rows);
-  for (double& deviate : noise) deviate = core::sample_normal(rng);
+  for (double& deviate : noise) deviate = random.normal();
   HalfSpectrum spectrum = fourier_transform(noise, recipe.columns, recipe.rows);
   for (std::uint32_t l = 0; l < recipe.rows; ++l)
     for (std::uint32_t k = 0; k < spectrum.kept(); ++k) {
