@@ -103,7 +103,7 @@ struct Pulls {
   }
 };
 
-constexpr std::uint64_t kRuns = 600;
+constexpr std::uint64_t kRuns = 300;
 constexpr double kEventsOfARun = 60.0;
 
 /// The ratio of the sums of two numbers over all runs.
@@ -151,7 +151,7 @@ TEST_CASE(
 }
 
 TEST_CASE("The bins of tallies of an event source have pulls of mean 0 and width 1, summed and per photon") {
-  const auto runs = runs_of(black_crystal() + kTallies, kRuns);
+  const auto runs = runs_of(black_crystal() + kTallies, 2 * kRuns);  // independent photons are wrong by 1.2
   for (const auto& place : {std::pair{0, 0}, {0, 1}, {1, 0}}) {
     const int tally = place.first, bin = place.second;
     CAPTURE(tally);
