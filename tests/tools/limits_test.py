@@ -14,7 +14,7 @@ import callgrind_file  # noqa: E402
 import report  # noqa: E402
 import rows  # noqa: E402
 import version_scenes  # noqa: E402
-from bench_program import KERNEL, RANDOM, SINGLE, TRACE, VECTORS, BenchProgram, Counts, SceneCounts  # noqa: E402
+from bench_program import KERNEL, SINGLE, TRACE, VECTORS, BenchProgram, Counts, SceneCounts  # noqa: E402
 
 # A function with an inlined line, that calls another one twice; then names by their numbers alone.
 FILE = '''# callgrind format
@@ -61,7 +61,7 @@ def read(text):
 def figures(ns, before_ns, outside=60.0, factor=4.0):
     kernels = 100.0 - outside
     counts = SceneCounts(5.0, Counts(100.0, 20.0, 10.0, 1.0), Counts(kernels), {'emission': Counts(outside)},
-                         {VECTORS: 0.2 * kernels, RANDOM: 0.05 * kernels, SINGLE: 0.75 * kernels})
+                         {VECTORS: 0.25 * kernels, SINGLE: 0.75 * kernels})
     return report.Figures(rows.Row('scene', factor, 1), counts, {4: ns}, {}, report.Before(200.0, before_ns))
 
 
@@ -85,9 +85,9 @@ class Limits(unittest.TestCase):
 
     def test_kernels_are_the_functions_in_lanes(self):
         for name in ('scintray::transport::(anonymous namespace)::LanePasses<scintray::transport::LaneRealPair<xsimd::avx2> >::run()',
-                     'scintray::transport::(anonymous namespace)::LanePhotons<LaneReal>::draw_one_by_one(unsigned int)',
                      'scintray::transport::(anonymous namespace)::LaneBoxSet<scintray::core::LaneReal<xsimd::avx2> >::last_pass()',
                      'scintray::transport::propagate_lanes_4(scintray::transport::LanePlanes const&)',
+                     'scintray::transport::refract_lanes_8(scintray::transport::LaneNormal const*)',
                      'scintray::transport::propagate_lanes_in_body_8(scintray::transport::LaneBody const&)'):
             self.assertTrue(KERNEL.search(name), name)
         for name in ('scintray::transport::SurfaceLanes::enter(unsigned int)', 'scintray::transport::propagate_lanes(int)'):
@@ -105,10 +105,10 @@ class Limits(unittest.TestCase):
         counted = {callgrind_file.Place('/bin/scintray_bench', file, 'LanePasses<int>::run()'): {'Ir': count}
                    for file, count in (('/usr/lib/gcc/x86_64-linux-gnu/12/include/avx2intrin.h', 10), ('/usr/include/xsimd/a.hpp', 20),
                                        ('/x/src/scintray/core/lanes/lane_number.hpp', 160),
-                                       ('/x/src/scintray/core/philox_laws.hpp', 40), ('/x/src/scintray/optics/table_laws.hpp', 80))}
+                                       ('/x/src/scintray/optics/table_laws.hpp', 80))}
         result = program.attributed(counted, 10, 5.0)
-        self.assertEqual(result.in_kernels, {VECTORS: 19.0, RANDOM: 4.0, SINGLE: 8.0})
-        self.assertEqual(result.kernels.instructions, 31.0)
+        self.assertEqual(result.in_kernels, {VECTORS: 19.0, SINGLE: 8.0})
+        self.assertEqual(result.kernels.instructions, 27.0)
 
     def test_counts_go_to_the_kinds_that_the_program_says(self):
         program = BenchProgram('/bin/scintray_bench')
@@ -133,9 +133,9 @@ class Limits(unittest.TestCase):
         self.assertEqual(report.conclusion(figures(20.0, 40.0, outside=30.0)), 'kernels in 20 in place of 70')
         # Half of 200 leaves all 100.
         self.assertEqual(report.conclusion(figures(30.0, 40.0, factor=2.0)), 'few enough, at fewer a ns than before')
-        # 15 are left for kernels, a quarter of whose 90 is in vectors or Philox.
+        # 15 are left for kernels, a quarter of whose 90 is in vectors.
         self.assertEqual(report.conclusion(figures(20.0, 40.0, outside=10.0, factor=8.0)),
-                         'vectors and Philox alone take 1.50 of what is left for kernels')
+                         'vectors alone take 1.50 of what is left for kernels')
         alone = figures(20.0, 40.0, outside=100.0)
         alone.counts.by_kind['ray query'] = Counts(25.0)
         self.assertEqual(report.conclusion(alone), 'no kernels; the ray query alone takes 0.50 of them')
@@ -147,7 +147,7 @@ class Limits(unittest.TestCase):
     def test_what_is_needed_leaves_out_emission_and_single_lanes(self):
         # 50 instructions are left; kernels need 20 and 5 of their 40, and 45 of the 60 outside are not emission.
         some = figures(20.0, 40.0)
-        some.counts.in_kernels.update({VECTORS: 20.0, RANDOM: 5.0, SINGLE: 15.0})
+        some.counts.in_kernels.update({VECTORS: 25.0, SINGLE: 15.0})
         some.counts.by_kind.update({'emission': Counts(5.0), 'random': Counts(8.0), 'elementary': Counts(2.0),
                                     'propagation': Counts(45.0)})
         self.assertEqual(report.needed_share(some), (20.0 + 5.0 + 45.0) / 50.0)

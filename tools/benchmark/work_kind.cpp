@@ -12,6 +12,7 @@ namespace {
 constexpr core::Word<WorkKind> kSources[] = {
     {"scintray/core/philox", WorkKind::random},
     {"scintray/core/rng", WorkKind::random},
+    {"scintray/core/xoroshiro", WorkKind::random},
     {"scintray/core/elementary", WorkKind::elementary},
     {"scintray/scene/accelerator", WorkKind::ray_query},
     {"scintray/scene/", WorkKind::propagation},

@@ -15,10 +15,10 @@ TRACE = re.compile(r' T (scintray::bench::Workload::trace\(.*\) const)$', re.MUL
 CALLGRIND = ['valgrind', '--tool=callgrind', '--cache-sim=yes', '--branch-sim=yes']
 FIRST_COUNTED = 2  # file of the first trace that is compared: those before it fill caches
 # Functions of the kernels that propagate photons in lanes.
-KERNEL = re.compile(r'\bLane(?:Passes|Photons|Propagation|BoxSet)<|\b(?:propagate|run)_lanes_(?:in_body_)?\d')
+KERNEL = re.compile(r'\bLane(?:Passes|Photons|Propagation|BoxSet)<|\b(?:propagate|refract|run)_lanes_(?:in_body_)?\d')
 # What an instruction in a kernel does, by the source file of its line; all else is done for one lane after another.
-VECTORS, RANDOM, SINGLE = 'vectors', 'Philox', 'one lane'
-IN_KERNELS = ((re.compile(r'intrin\.h$|/xsimd/|/lane_number\.hpp$'), VECTORS), (re.compile(r'/philox_laws\.hpp$'), RANDOM))
+VECTORS, SINGLE = 'vectors', 'one lane'
+IN_VECTORS = re.compile(r'intrin\.h$|/xsimd/|/lane_number\.hpp$')
 
 
 @dataclasses.dataclass
@@ -141,14 +141,13 @@ class BenchProgram:
         own = self.path.name
         kinds = self.ask({'kinds_of': [['' if Path(place.object).name == own else Path(place.object).name,
                                          place.file, place.function] for place in places]})['kinds']
-        result = SceneCounts(segments_per_photon, Counts(), Counts(), {}, dict.fromkeys((VECTORS, RANDOM, SINGLE), 0.0))
+        result = SceneCounts(segments_per_photon, Counts(), Counts(), {}, dict.fromkeys((VECTORS, SINGLE), 0.0))
         for place, kind in zip(places, kinds):
             counts = Counts.of(counted[place]) / segments
             result.whole += counts
             if KERNEL.search(place.function):
                 result.kernels += counts
-                does = next((does for pattern, does in IN_KERNELS if pattern.search(place.file)), SINGLE)
-                result.in_kernels[does] += counts.instructions
+                result.in_kernels[VECTORS if IN_VECTORS.search(place.file) else SINGLE] += counts.instructions
             else:
                 result.by_kind[kind] = result.by_kind.get(kind, Counts()) + counts
         return result

@@ -3,7 +3,7 @@
 import dataclasses
 
 import rows
-from bench_program import RANDOM, SINGLE, VECTORS, SceneCounts
+from bench_program import SINGLE, VECTORS, SceneCounts
 
 KINDS = ('ray query', 'propagation', 'surface', 'random', 'elementary', 'emission', 'tally', 'readout', 'other')  # the order
 COUNTED_LANES = 4  # valgrind knows no AVX-512
@@ -73,7 +73,7 @@ def needed_share(figures):
         return None
     outside = counts.whole.instructions - counts.kernels.instructions
     emission = sum(counts.by_kind[kind].instructions for kind in EMISSION if kind in counts.by_kind)
-    return (counts.in_kernels[VECTORS] + counts.in_kernels[RANDOM] + outside - emission) / left
+    return (counts.in_kernels[VECTORS] + outside - emission) / left
 
 
 def table_of_kernels(measured):
@@ -85,9 +85,9 @@ def table_of_kernels(measured):
         left = instructions_left(figures)
         outside = counts.whole.instructions - counts.kernels.instructions
         lines.append([figures.row.scene, number(counts.kernels.instructions),
-                      *(number(counts.in_kernels[does]) for does in (VECTORS, RANDOM, SINGLE)),
+                      *(number(counts.in_kernels[does]) for does in (VECTORS, SINGLE)),
                       number(None if left is None else max(0.0, left - outside)), number(needed_share(figures), 2)])
-    return table(['scene', 'kernels', 'in vectors', 'Philox', 'one lane after another', 'left for kernels', 'needed'], lines)
+    return table(['scene', 'kernels', 'in vectors', 'one lane after another', 'left for kernels', 'needed'], lines)
 
 
 def table_of_times(measured, clock):
@@ -131,9 +131,9 @@ def conclusion(figures):
         return f'no kernels; the ray query alone takes {counts.by_kind["ray query"].instructions / left:.2f} of them'
     if outside > left:
         return f'what is not in kernels takes {outside / left:.2f} of them'
-    needed = counts.in_kernels[VECTORS] + counts.in_kernels[RANDOM]
+    needed = counts.in_kernels[VECTORS]
     if needed > left - outside:
-        return f'vectors and Philox alone take {needed / (left - outside):.2f} of what is left for kernels'
+        return f'vectors alone take {needed / (left - outside):.2f} of what is left for kernels'
     return f'kernels in {left - outside:.0f} in place of {counts.kernels.instructions:.0f}'
 
 
