@@ -57,11 +57,11 @@ TEST_CASE("A server traces at the lane width that is asked for, with the same ph
 }
 
 TEST_CASE("A server says the kinds of work of places, and how fast the processor counts") {
-  const auto answers = answers_to(
-      {R"({"kinds_of": [["", "/x/src/scintray/core/xoroshiro.hpp", "scintray::transport::step"],)"
-       R"( ["", "/usr/include/avxintrin.h", "scintray::optics::refract"],)"
-       R"( ["libembree3.so.3", "???", "0x1"], ["libc.so.6", "???", "malloc"]]})",
-       R"({"machine": true})"});
+  const auto answers =
+      answers_to({R"({"kinds_of": [["", "/x/src/scintray/core/xoroshiro.hpp", "scintray::transport::step"],)"
+                  R"( ["", "/usr/include/avxintrin.h", "scintray::optics::refract"],)"
+                  R"( ["libembree3.so.3", "???", "0x1"], ["libc.so.6", "???", "malloc"]]})",
+                  R"({"machine": true})"});
   REQUIRE(answers.size() == 2);
   CHECK(answers[0] == R"({"kinds":["random","surface","ray query","other"]})");
   CHECK(answers[1].find(R"("cycles_per_ns":)") != std::string::npos);

@@ -109,6 +109,8 @@ class Batch::Tracing {
   /// True when the photon continues after the step; else its end is recorded, and the next photon replaces
   /// it.
   bool goes_on(Traveller& traveller, const Step& taken);
+  /// Enqueues a traveller that goes_on() after the step, else its place is free.
+  void go_on(std::uint32_t traveller, const Step& taken);
   /// Starts the next photons in place of those that have ended.
   void start();
 
@@ -207,6 +209,13 @@ void Batch::Tracing::start() {
   }
 }
 
+void Batch::Tracing::go_on(std::uint32_t index, const Step& taken) {
+  if (goes_on(travellers_[index], taken))
+    enqueue(index);
+  else
+    ended_.push_back(index);
+}
+
 void Batch::Tracing::enqueue(std::uint32_t index) {
   const source::Photon& photon = travellers_[index].photon;
   switch (kind_of(travellers_[index])) {
@@ -242,10 +251,7 @@ void Batch::Tracing::trace_in_surface_lanes() {
   for (const SurfaceLanes::Left& left : surface_lanes_.run()) {
     Traveller& traveller = travellers_[left.name];
     traveller.segments += left.segments;
-    if (goes_on(traveller, surface_lanes_.finish(left, traveller.photon, traveller.rng)))
-      enqueue(left.name);
-    else
-      ended_.push_back(left.name);
+    go_on(left.name, surface_lanes_.finish(left, traveller.photon, traveller.rng));
   }
 }
 
@@ -309,12 +315,7 @@ void Batch::Tracing::refract(core::AcceleratorId accelerator) {
     }
     take_back(index);
     const BoundaryPlace at{faces.list()[work.face].triangle, work.cosine};
-    const Step step =
-        work.transmitted != 0 ? cross_boundary(scene_, at, traveller.photon) : reflected_in_lanes();
-    if (goes_on(traveller, step))
-      enqueue(index);
-    else
-      ended_.push_back(index);
+    go_on(index, work.transmitted != 0 ? cross_boundary(scene_, at, traveller.photon) : reflected_in_lanes());
   }
 }
 
@@ -324,8 +325,11 @@ void Batch::Tracing::set_work(std::uint32_t index) {
   const LaneFaces& faces = faces_[scene_.regions[photon.region].accelerator];
   double* const least_sin2 = least_sin2_.data() + index * most_faces_;
   double* const index_behind = index_behind_.data() + index * most_faces_;
-  if (traveller.faces_of != photon.region || traveller.faces_nm != photon.wavelength_nm)
-    set_faces(traveller, faces, least_sin2, index_behind);
+  if (traveller.faces_of != photon.region || traveller.faces_nm != photon.wavelength_nm) {
+    faces.set_optics(scene_, photon, kernels_.refract != nullptr, {least_sin2, index_behind});
+    traveller.faces_of = photon.region;
+    traveller.faces_nm = photon.wavelength_nm;
+  }
   LaneWork& work = work_[index];
   give_photon(scene_, photon, work);
   work.index = photon.optics.index;
@@ -334,36 +338,6 @@ void Batch::Tracing::set_work(std::uint32_t index) {
   work.least_sin2 = least_sin2;
   work.index_behind = index_behind;
   work.left = faces.left_at(photon.on_triangle);
-}
-
-void Batch::Tracing::set_faces(Traveller& traveller, const LaneFaces& faces, double* least_sin2,
-                               double* index_behind) const {
-  const source::Photon& photon = traveller.photon;
-  const scene::Region& region = scene_.regions[photon.region];
-  const scene::BoundaryLink* const links = scene_.links_of(region);
-  const bool refracts = kernels_.refract && !faces.has_quadrics() && !scene_.keeps_phases &&
-                        scene_.optics.birefringent.empty() && !region.thin_gaps;
-  core::MediumId known_medium;
-  double known_sin2 = kNoTotalReflection, known_index = 0.0;
-  for (const LaneFaces::Face& face : faces.list()) {
-    if (face.mixed) {
-      *least_sin2++ = kManyRegions;
-      *index_behind++ = 0.0;
-      continue;
-    }
-    const core::MediumId medium = links[face.triangle].smooth_to;
-    if (medium != known_medium) {
-      known_medium = medium;
-      known_sin2 = critical_sin2(scene_, medium, photon);
-      known_index = medium.has_value() && !scene_.optics.is_opaque(medium)
-                        ? scene_.optics.index(medium, photon.wavelength_nm)
-                        : 0.0;
-    }
-    *least_sin2++ = known_sin2;
-    *index_behind++ = refracts ? known_index : 0.0;
-  }
-  traveller.faces_of = photon.region;
-  traveller.faces_nm = photon.wavelength_nm;
 }
 
 void Batch::Tracing::take_back(std::uint32_t index) {
@@ -390,10 +364,7 @@ void Batch::Tracing::finish(const LaneFaces& faces, std::uint32_t index) {
   } else {
     propagation.end = PropagationEnd::bulk;
   }
-  if (goes_on(traveller, end_of_step(scene_, propagation, photon, traveller.rng, nullptr)))
-    enqueue(index);
-  else
-    ended_.push_back(index);
+  go_on(index, end_of_step(scene_, propagation, photon, traveller.rng, nullptr));
 }
 
 bool Batch::Tracing::goes_on(Traveller& traveller, const Step& taken) {

@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "scintray/transport/detail/photon_numbers.hpp"
+#include "scintray/transport/detail/step_parts.hpp"
 
 namespace scintray::transport {
 
@@ -51,6 +52,32 @@ LaneFaces::LaneFaces(const scene::Scene& scene, const scene::Region& region)
   flat_ = body.planes_end - body.planes_begin;
   cylinders_ = accelerator.is_convex_cylinders();
   for (std::uint32_t i = body.quadrics_begin; i < body.quadrics_end; ++i) add(exact.quadrics[i]);
+}
+
+void LaneFaces::set_optics(const scene::Scene& scene, const source::Photon& photon, bool refracts,
+                           Optics optics) const {
+  const scene::Region& region = scene.regions[photon.region];
+  const scene::BoundaryLink* const links = scene.links_of(region);
+  refracts = refracts && !has_quadrics() && !scene.keeps_phases && scene.optics.birefringent.empty() &&
+             !region.thin_gaps;
+  core::MediumId known_medium;
+  double known_sin2 = kNoTotalReflection, known_index = 0.0;
+  for (const Face& face : list_) {
+    if (face.mixed) {
+      *optics.least_sin2++ = kManyRegions;
+      *optics.index_behind++ = 0.0;
+      continue;
+    }
+    const core::MediumId medium = links[face.triangle].smooth_to;
+    if (medium != known_medium) {
+      known_medium = medium;
+      known_sin2 = critical_sin2(scene, medium, photon);
+      const bool transparent = medium.has_value() && !scene.optics.is_opaque(medium);
+      known_index = transparent ? scene.optics.index(medium, photon.wavelength_nm) : 0.0;
+    }
+    *optics.least_sin2++ = known_sin2;
+    *optics.index_behind++ = refracts ? known_index : 0.0;
+  }
 }
 
 LanePlanes LaneFaces::planes() const {

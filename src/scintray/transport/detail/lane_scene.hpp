@@ -34,6 +34,14 @@ class LaneFaces {
   LaneBody body() const;
   /// Per face, where all are planes.
   const LaneNormal* normals() const { return normals_.data(); }
+  /// As of LaneWork, per face.
+  struct Optics {
+    double *least_sin2, *index_behind;
+  };
+  /// Sets those of a photon in one of the regions of this shape.
+  /// @param refracts  there is a kernel for Fresnel's equations
+  void set_optics(const scene::Scene& scene, const source::Photon& photon, bool refracts,
+                  Optics optics) const;
   /// The face that a triangle is on, as LaneWork::left: kNoFace for planes, and for no triangle.
   double left_at(std::uint32_t triangle) const;
 

@@ -2,6 +2,7 @@
 #include "scintray/transport/detail/lanes/lane_box_set.hpp"
 #include "scintray/transport/detail/lanes/lane_flat_walls.hpp"
 #include "scintray/transport/detail/lanes/lane_passes.hpp"
+#include "scintray/transport/detail/lanes/lane_refraction.hpp"
 
 namespace scintray::transport {
 
