@@ -99,8 +99,6 @@ class Batch::Tracing {
   void propagate(const Waiting* first, const Waiting* last);
   /// Sets all of a traveller's work but the results, in place: copying what was just written would stall.
   void set_work(std::uint32_t traveller);
-  void set_faces(Traveller& traveller, const LaneFaces& faces, double* least_sin2,
-                 double* index_behind) const;
   /// Reflects or refracts those of refracted_.
   void refract(core::AcceleratorId accelerator);
   void finish(const LaneFaces& faces, std::uint32_t traveller);
