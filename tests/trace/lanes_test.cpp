@@ -372,13 +372,13 @@ TEST_CASE("The shipped scenes have the same results for every width of the lanes
   SUBCASE("torture") { name = "torture"; }
   const std::filesystem::path file = source_file("scenes/" + name + ".toml");
   std::string text =
-      std::regex_replace(config::read_text_file(file), std::regex("\nphotons = [0-9_]+"), "\nphotons = 600");
+      std::regex_replace(config::read_text_file(file), std::regex("\nphotons = [0-9_]+"), "\nphotons = 900");
   // The same coarse table for every width.
   text = std::regex_replace(text, std::regex("\ntracing = \\{"), "\ntracing = { rays = 100,");
   const SceneSpec spec = SceneFile::from_text(text, file.string()).spec(0);
   scene::SceneBuilder builder(tables_of_this_build());
   const TracedPhotons alone = trace_with(spec, 1, builder);
-  REQUIRE(alone.result.segments > 300);
+  REQUIRE(alone.result.segments > 500);
   for (const int width : core::lane_widths()) {
     CAPTURE(width);
     check_same(alone, trace_with(spec, width, builder));
