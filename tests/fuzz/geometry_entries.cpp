@@ -1,7 +1,12 @@
 #include "geometry_entries.hpp"
 
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "io/gdml_texts.hpp"
 #include "require.hpp"
+#include "scintray/core/rng.hpp"
 #include "scintray/exchange/scene_draft.hpp"
 #include "scintray/mesh/import/import.hpp"
 #include "scratch_file.hpp"
@@ -53,6 +58,7 @@ bool run_gltf(const std::uint8_t* data, std::size_t size) { return run_mesh(data
 #ifdef SCINTRAY_TESTS_STEP
 bool run_step(const std::uint8_t* data, std::size_t size) { return run_mesh(data, size, ".step"); }
 
+/// The last one begins with a comment as long as the file, whose damage no reader of the solid notices.
 std::vector<std::string> step_seeds() {
   const auto path =
       std::filesystem::temp_directory_path() / ("scintray_fuzz_seed_" + std::to_string(getpid()) + ".step");
@@ -64,6 +70,9 @@ std::vector<std::string> step_seeds() {
     seeds.emplace_back(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
   }
   std::filesystem::remove(path);
+  std::string commented = seeds.front();
+  commented.insert(commented.find("HEADER;"), "/*" + std::string(commented.size(), ' ') + "*/\n");
+  seeds.push_back(std::move(commented));
   return seeds;
 }
 #endif
@@ -125,14 +134,24 @@ std::vector<std::string> three_mf_model_seeds() {
       "<build><item objectid=\"1\" transform=\"1 0 0 0 1 0 0 0 1 5 0 0\"/></build></model>"};
 }
 
-std::string three_mf(const std::string& model) {
+std::string three_mf(const std::string& model, const std::string& picture = {}) {
   const std::string relationships =
       "<Relationships><Relationship Target=\"/3D/3dmodel.model\" Id=\"r\" "
       "Type=\"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel\"/></Relationships>";
-  return test::zipped({{"_rels/.rels", relationships}, {"3D/3dmodel.model", model}});
+  std::vector<std::pair<std::string, std::string>> parts{{"_rels/.rels", relationships},
+                                                         {"3D/3dmodel.model", model}};
+  if (!picture.empty()) parts.emplace_back("Metadata/thumbnail.png", picture);
+  return test::zipped(parts);
 }
 
-std::vector<std::string> three_mf_seeds() { return {three_mf(three_mf_model_seeds().front())}; }
+/// With a picture as well, whose damage no reader of the mesh notices.
+std::vector<std::string> three_mf_seeds() {
+  const std::string model = three_mf_model_seeds().front();
+  core::Rng rng(20261130, core::StreamKind::other, 0);
+  std::string picture(2000, ' ');
+  for (char& byte : picture) byte = static_cast<char>(rng.uniform() * 256.0);
+  return {three_mf(model), three_mf(model, picture)};
+}
 
 /// The bytes are the model, in an archive that is otherwise sound.
 bool run_3mf_model(const std::uint8_t* data, std::size_t size) {
