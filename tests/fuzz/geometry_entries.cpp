@@ -149,7 +149,7 @@ std::vector<std::string> three_mf_seeds() {
   const std::string model = three_mf_model_seeds().front();
   core::Rng rng(20261130, core::StreamKind::other, 0);
   std::string picture(2000, ' ');
-  for (char& byte : picture) byte = static_cast<char>(rng.uniform() * 256.0);
+  for (char& byte : picture) byte = static_cast<char>(rng.bits() & 0xFF);
   return {three_mf(model), three_mf(model, picture)};
 }
 

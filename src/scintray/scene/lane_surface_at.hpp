@@ -101,13 +101,4 @@ struct LaneShares {
   bool is_most(double part) const { return part > 0.5 * all; }
 };
 
-inline LaneShares lane_shares(const Scene& scene, const Region& region) {
-  const Accelerator& accelerator = scene.accelerator(region);
-  const BoundaryLink* const links = scene.links_of(region);
-  LaneShares of;
-  for (std::uint32_t i = 0; i < accelerator.size(); ++i)
-    of.add(area_of(accelerator.triangle(i)), lane_link(scene, region.medium, links[i]));
-  return of;
-}
-
 }  // namespace scintray::scene

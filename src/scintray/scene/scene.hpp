@@ -149,6 +149,13 @@ struct BoundaryLink {
 };
 static_assert(std::is_trivially_copyable_v<BoundaryLink> && sizeof(BoundaryLink) == 12);
 
+/// How photons in a region are traced in the lanes of vector registers, where that is faster.
+enum class LaneKind : std::uint8_t {
+  none,      ///< they are traced one by one
+  smooth,    ///< they are propagated in lanes, through total reflections (transport's lane_kernel.hpp)
+  surfaces,  ///< they stay in lanes at surfaces, and from region to region (lane_pool.hpp)
+};
+
 /// Connected space of one medium: a part less the parts nested in it, or the ambient space.
 struct Region {
   core::MediumId medium;
@@ -156,10 +163,10 @@ struct Region {
   core::AcceleratorId accelerator;
   std::uint32_t first_link = 0;  ///< of its triangles', in SceneRecords::links
   bool rotated = false;          ///< `rotation` is not the identity
-  /// Photons may be traced in lanes, and gain by it: not rotated, bounded by planes or one convex body, or
-  /// with thin gaps, and most of the boundary smooth, so that they are often totally reflected, or, except
-  /// for bodies, with surfaces for lanes (lane_surface_at.hpp).
-  bool in_lanes = false;
+  LaneKind lanes = LaneKind::none;
+  /// Its boundary is a box, and `lanes` is LaneKind::smooth: total reflections in it are passed many at once
+  /// (transport's box_reflections.hpp), in lanes and without.
+  bool unfolds = false;
   bool curved = false;     ///< its accelerator has exact bodies
   bool thin_gaps = false;  ///< it has some: photons in it keep the triangle of the flat face that they are on
   core::PlainVec3 centre = core::Vec3(core::Vec3::Zero());       ///< origin of the region's frame, mm
@@ -198,6 +205,11 @@ struct SceneRecords {
   const BoundaryLink* links_of(const Region& region) const { return links.data() + region.first_link; }
   const BoundaryLink& link(const Region& region, std::uint32_t triangle) const {
     return links_of(region)[triangle];
+  }
+  /// Region behind a boundary.
+  core::RegionId behind(const BoundaryLink& link) const {
+    const Interface& interface = interfaces[link.interface];
+    return link.from_back ? interface.front : interface.back;
   }
   std::uint32_t twin(const Region& region, std::uint32_t triangle) const {
     return twins[region.first_link + triangle];
@@ -287,6 +299,9 @@ struct Scene : SceneRecords {
   const SensorFaceFrame& sensor_frame(const Interface& interface, core::PartId part) const {
     return sensor_frames[sensor_face(interface, part)];
   }
+  /// True when light that enters a region through an interface reaches the sensor there, rather than passing
+  /// it.
+  bool reaches_sensor(const Interface& interface, bool from_back) const;
   /// A triangle of a region's boundary (world, mm).
   BoundaryTriangle triangle(const Region& region, std::uint32_t number) const;
 

@@ -14,14 +14,9 @@ namespace scintray::transport {
 
 class LaneScene;
 
-/// Which kernel traces photons in a region.
-enum class LaneKind {
-  none,      ///< photons are traced one by one
-  smooth,    ///< they are propagated in lanes, through total reflections (lane_kernel.hpp)
-  surfaces,  ///< they stay in lanes at surfaces, and from region to region (lane_pool.hpp)
-};
-
-/// The fastest kernels for all regions of a scene at a width of lane_widths(). No result depends on them.
+/// The kernels that trace photons in each region of a scene at a width of lane_widths(): those of
+/// scene::Region::lanes, where the width has them. No result depends on them.
+using scene::LaneKind;
 using LaneKinds = core::IdVector<core::RegionId, LaneKind>;
 LaneKinds lane_kinds(const scene::Scene& scene, int lane_width);
 

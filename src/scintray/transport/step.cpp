@@ -12,20 +12,6 @@ namespace scintray::transport {
 
 namespace {
 
-/// The step of a total reflection at this boundary of the photon's region.
-Step total_reflection(const scene::Scene& scene, const source::Photon& photon, std::uint32_t triangle,
-                      double cosine) {
-  const scene::BoundaryLink& link = scene.link(scene.regions[photon.region], triangle);
-  Step step;
-  step.event = core::StepEvent::reflected;
-  step.from_back = link.from_back;
-  step.region = photon.region;
-  step.interface = link.interface;
-  step.triangle = triangle;
-  step.cos_before = step.cos_after = cosine;
-  return step;
-}
-
 /// Propagation through total reflections until another event. Inlined: it is part of every step.
 template <typename State>
 [[gnu::always_inline]] inline Propagation propagate_as(const scene::Scene& scene, source::Photon& photon,
@@ -34,10 +20,10 @@ template <typename State>
   const scene::BoundaryLink* const links = scene.links_of(region);
   const double attenuation = photon.optics.absorption_per_mm + photon.optics.scattering_per_mm;
   State state(scene, region, photon);
-  core::MediumId known_medium;
-  double least_sin2 = critical_sin2(scene, known_medium, photon);
+  CriticalAngle critical(scene, photon);
   Propagation propagation;
   for (;;) {
+    if constexpr (State::kUnfolds) propagation.segments += state.pass_reflections(limits);
     ++propagation.segments;
     const Wall wall = state.next_wall();
     propagation.resolved += wall.resolved ? 1 : 0;
@@ -55,12 +41,8 @@ template <typename State>
     propagation.end = PropagationEnd::boundary;
     const core::MediumId medium = links[wall.triangle].smooth_to;
     if (!medium.has_value()) break;
-    if (medium != known_medium) {
-      known_medium = medium;
-      least_sin2 = critical_sin2(scene, medium, photon);
-    }
     propagation.cosine = state.incidence(wall);
-    if (!totally_reflected(propagation.cosine, least_sin2)) break;
+    if (!totally_reflected(propagation.cosine, critical.sin2(medium))) break;
 
     state.reflect_at(wall, propagation.cosine);
     propagation.end = PropagationEnd::total;
@@ -89,8 +71,14 @@ template <typename State>
   return propagate_as<CurvedPropagation>(scene, photon, limits);
 }
 
+[[gnu::noinline]] Propagation propagate_in_box(const scene::Scene& scene, source::Photon& photon,
+                                               const PropagationLimits& limits) {
+  return propagate_as<UnfoldedPropagation>(scene, photon, limits);
+}
+
 /// Propagation of the photon through its region, up to the next event. Depends on its arguments alone.
 Propagation propagate(const scene::Scene& scene, source::Photon& photon, const PropagationLimits& limits) {
+  if (scene.regions[photon.region].unfolds) return propagate_in_box(scene, photon, limits);
   const bool curved = scene.regions[photon.region].curved;
   Propagation propagation = curved ? propagate_between_curves(scene, photon, limits)
                                    : propagate_as<StoredPropagation>(scene, photon, limits);
@@ -176,7 +164,7 @@ inline void cross(const scene::Scene& scene, const scene::Interface& interface, 
       entered.thin_gaps ? scene.twin(scene.regions[before], result.triangle) : scene::kNoTriangle;
   const core::MediumId medium = entered.medium;
   photon.optics = scene.optics.at(medium, photon.wavelength_nm);
-  if (reaches_sensor(scene, interface, result.from_back)) {
+  if (scene.reaches_sensor(interface, result.from_back)) {
     reach_sensor(scene, interface, photon, {there, result.cos_after}, result);
   } else if (scene.optics.is_opaque(medium)) {
     result.event = core::StepEvent::absorbed_in_medium;
@@ -236,17 +224,6 @@ void interact_at_boundary(const scene::Scene& scene, std::uint32_t triangle, sou
 }
 
 }  // namespace
-
-bool reaches_sensor(const scene::Scene& scene, const scene::Interface& interface, bool from_back) {
-  const core::SensorId id = from_back ? interface.front_sensor : interface.back_sensor;
-  if (!id.has_value()) return false;
-  const detector::Sensor& sensor = scene.sensors[id];
-  if (sensor.converts == detector::ConvertedLight::entering) [[likely]]
-    return true;
-  const core::PartId part = from_back ? interface.front_sensor_part : interface.back_sensor_part;
-  return sensor.converts_entering() &&
-         scene.regions[from_back ? interface.front : interface.back].part == part;
-}
 
 double index_behind(const scene::Scene& scene, const scene::BoundaryLink& link,
                     const source::Photon& photon) {

@@ -122,6 +122,15 @@ void store_fours(const LaneFours<Real>& fours, const LanePlaces<Record>& to) {
 }
 #endif
 
+template <typename Record>
+void store_fours(const LaneFours<LaneReal<xsimd::sse2>>& fours, const LanePlaces<Record>& to) {
+  for (int half = 0; half < 2; ++half) {
+    const __m128d a = fours.of[2 * half].lanes, b = fours.of[2 * half + 1].lanes;
+    _mm_storeu_pd(to[0] + 2 * half, _mm_unpacklo_pd(a, b));
+    _mm_storeu_pd(to[1] + 2 * half, _mm_unpackhi_pd(a, b));
+  }
+}
+
 /// Without a way through memory: the load of a vector waits for the stores of its parts.
 static inline void load_ones(const double* const* at, LaneReal<xsimd::sse2>& to) {
   to.lanes = _mm_set_pd(*at[1], *at[0]);

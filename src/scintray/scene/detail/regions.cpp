@@ -1,6 +1,6 @@
 #include "scintray/scene/accelerator.hpp"
+#include "scintray/scene/detail/lane_kinds.hpp"
 #include "scintray/scene/detail/round_parts.hpp"
-#include "scintray/scene/lane_surface_at.hpp"
 
 #include <algorithm>
 #include <array>
@@ -138,20 +138,12 @@ class Twins {
   std::vector<Place> of_back_, of_front_;
 };
 
-/// Sets BoundaryLink::smooth_to and Region::in_lanes, which requires all regions.
+/// Sets BoundaryLink::smooth_to, which requires all regions.
 void link_smooth_media(Scene& scene) {
   for (BoundaryLink& link : scene.links) {
     const Interface& interface = scene.interfaces[link.interface];
     if (interface.plain && !scene.keeps_phases)
       link.smooth_to = scene.regions[link.from_back ? interface.front : interface.back].medium;
-  }
-  for (Region& region : scene.regions) {
-    const Accelerator& accelerator = scene.accelerator(region);
-    if (scene.optics.media[region.medium].birefringent) continue;
-    if (region.rotated || !(accelerator.uses_planes() || accelerator.is_convex_body() || region.thin_gaps))
-      continue;
-    const LaneShares shares = lane_shares(scene, region);
-    region.in_lanes = shares.is_most(shares.smooth) || (shares.is_most(shares.known) && !region.curved);
   }
 }
 
@@ -226,6 +218,7 @@ void build_regions(const Assembly& assembly, const std::vector<contact::Interfac
   for (const core::PartId part : assembly.parts.ids()) build(part);
   scene.twins = twins.of_links();
   link_smooth_media(scene);
+  set_lane_kinds(scene);
 }
 
 }  // namespace scintray::scene

@@ -75,7 +75,7 @@ bool are_alike(const scene::Scene& scene, const scene::BoundaryLink& a, const sc
          at_a.gap_medium == at_b.gap_medium &&
          scene::absorbing_surface(scene, a) == scene::absorbing_surface(scene, b) &&
          a.smooth_to == b.smooth_to &&
-         scene.regions[region_behind(scene, a)].medium == scene.regions[region_behind(scene, b)].medium;
+         scene.regions[scene.behind(a)].medium == scene.regions[scene.behind(b)].medium;
 }
 
 }  // namespace
@@ -256,9 +256,9 @@ void LaneScene::link_faces(core::RegionId id, const LaneKinds& kinds) {
     if (face.optics == no_surface()) continue;
     const std::uint32_t triangle = shape.triangles[number];
     const scene::BoundaryLink& link = scene_.link(region, triangle);
-    const core::RegionId next = region_behind(scene_, link);
+    const core::RegionId next = scene_.behind(link);
     if (kinds[next] != LaneKind::surfaces ||
-        reaches_sensor(scene_, scene_.interfaces[link.interface], link.from_back))
+        scene_.reaches_sensor(scene_.interfaces[link.interface], link.from_back))
       continue;
     const scene::Region& there = scene_.regions[next];
     face.behind_face = 0.0;

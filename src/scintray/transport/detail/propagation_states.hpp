@@ -1,9 +1,13 @@
 #pragma once
 /// States of a photon that propagates through a region, for each kind of ray query.
 
+#include <vector>
+
 #include "scintray/core/lanes.hpp"
 #include "scintray/scene/accelerator.hpp"
+#include "scintray/transport/detail/box_reflections.hpp"
 #include "scintray/transport/detail/propagation_laws.hpp"
+#include "scintray/transport/detail/step_parts.hpp"
 #include "scintray/transport/step.hpp"
 
 namespace scintray::transport {
@@ -35,10 +39,26 @@ struct Wall {
   bool resolved = false;  ///< by the exact query
 };
 
+/// The step of a total reflection at this boundary of the photon's region.
+inline Step total_reflection(const scene::Scene& scene, const source::Photon& photon, std::uint32_t triangle,
+                             double cosine) {
+  const scene::BoundaryLink& link = scene.link(scene.regions[photon.region], triangle);
+  Step step;
+  step.event = core::StepEvent::reflected;
+  step.from_back = link.from_back;
+  step.region = photon.region;
+  step.interface = link.interface;
+  step.triangle = triangle;
+  step.cos_before = step.cos_after = cosine;
+  return step;
+}
+
 /// A photon that is propagated in place, for any ray query. Faster than EmbreePropagation without Embree, and
 /// up to the first total reflection, which is the whole propagation at rough faces.
 class StoredPropagation {
  public:
+  static constexpr bool kUnfolds = false;
+
   StoredPropagation(const scene::Scene& scene, const scene::Region& region, source::Photon& photon)
       : region_(region), accelerator_(scene.accelerator(region)), photon_(photon) {}
 
@@ -80,11 +100,94 @@ class StoredPropagation {
   core::Vec3 normal_;
 };
 
+/// A photon in a region that unfolds: before each segment, total reflections are passed many at once.
+class UnfoldedPropagation : public StoredPropagation {
+ public:
+  static constexpr bool kUnfolds = true;
+
+  UnfoldedPropagation(const scene::Scene& scene, const scene::Region& region, source::Photon& photon)
+      : StoredPropagation(scene, region, photon),
+        scene_(scene),
+        region_(region),
+        photon_(photon),
+        attenuation_per_mm_(photon.optics.absorption_per_mm + photon.optics.scattering_per_mm) {
+    const std::vector<scene::BoundingPlane>& planes = scene.accelerator(region).boundary().planes;
+    const scene::BoundaryLink* const links = scene.links_of(region);
+    CriticalAngle critical(scene, photon);
+    const auto least_sin2 = [&](const scene::BoundingPlane& plane) {
+      const bool leads_to_several = plane.triangles_begin != plane.triangles_end;
+      return critical.sin2(leads_to_several ? core::MediumId() : links[plane.first].smooth_to);
+    };
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const scene::BoundingPlane &first = planes[2 * axis], &second = planes[2 * axis + 1];
+      faces_[axis] = {first.offset, second.offset, 1.0 / (first.offset + second.offset), least_sin2(first),
+                      least_sin2(second)};
+    }
+  }
+
+  /// Passes total reflections up to shortly before the next other event. @return their number
+  std::uint32_t pass_reflections(const PropagationLimits& limits) {
+    const core::PlainVec3 &at = photon_.position, &direction = photon_.ray.direction;
+    const core::Vec3 local = region_.point_to_local(at);
+    const double time_per_mm = time_along(1.0, photon_.optics.group_index);
+    const BoxReflections<double> passed(
+        {faces_[0], local.x(), direction.x()}, {faces_[1], local.y(), direction.y()},
+        {faces_[2], local.z(), direction.z()},
+        {photon_.optical_depth, attenuation_per_mm_, limits.time_ns - photon_.time_ns, time_per_mm,
+         static_cast<double>(limits.interactions) - static_cast<double>(photon_.interactions)});
+    const auto count = static_cast<std::uint32_t>(passed.count);
+    if (count == 0) return 0;
+    if (limits.passed) [[unlikely]]
+      show(count, limits);
+    const core::PlainVec3& centre = region_.centre;
+    const double path_mm = passed.path_mm;
+    photon_.position = core::Vec3(passed.x.coordinate(faces_[0], at.x(), centre.x(), path_mm),
+                                  passed.y.coordinate(faces_[1], at.y(), centre.y(), path_mm),
+                                  passed.z.coordinate(faces_[2], at.z(), centre.z(), path_mm));
+    photon_.ray.direction =
+        core::Vec3(passed.x.direction(), passed.y.direction(), passed.z.direction());
+    const core::PlainVec3 polarisation = photon_.ray.polarisation;
+    const auto turned = [&passed](double component, const BoxAxis<double>& axis) {
+      return core::number_of(core::bits_of(component) ^ passed.turns(axis));
+    };
+    photon_.ray.polarisation =
+        core::Vec3(turned(polarisation.x(), passed.x), turned(polarisation.y(), passed.y),
+                   turned(polarisation.z(), passed.z));
+    photon_.path_mm += path_mm;
+    photon_.time_ns += path_mm * time_per_mm;
+    photon_.optical_depth -= attenuation_per_mm_ * path_mm;
+    photon_.interactions += count;
+    return count;
+  }
+
+ private:
+  /// Shows the next total reflections, of another photon that passes one after another.
+  void show(std::uint32_t count, const PropagationLimits& limits) const {
+    source::Photon photon = photon_;
+    StoredPropagation state(scene_, region_, photon);
+    for (; count > 0; --count) {
+      const Wall wall = state.next_wall();
+      state.move(wall.distance_mm, attenuation_per_mm_ * wall.distance_mm);
+      const double cosine = state.incidence(wall);
+      state.reflect_at(wall, cosine);
+      limits.passed(photon, total_reflection(scene_, photon, wall.triangle, cosine));
+    }
+  }
+
+  const scene::Scene& scene_;
+  const scene::Region& region_;
+  source::Photon& photon_;
+  double attenuation_per_mm_;
+  BoxAxis<double>::Faces faces_[3];
+};
+
 /// A photon in a region with exact round faces. At each face its position is moved onto the face, and the
 /// face of reflection is known in the next ray query, so that rounding errors do not accumulate over grazing
 /// reflections around a wall.
 class CurvedPropagation {
  public:
+  static constexpr bool kUnfolds = false;
+
   CurvedPropagation(const scene::Scene& scene, const scene::Region& region, source::Photon& photon)
       : region_(region), accelerator_(scene.accelerator(region)), photon_(photon) {}
 
@@ -132,6 +235,8 @@ class CurvedPropagation {
 /// be taken, which would place it in memory. tools/bench --scene polished_embree measures the gain.
 class EmbreePropagation {
  public:
+  static constexpr bool kUnfolds = false;
+
   EmbreePropagation(const scene::Scene& scene, const scene::Region& region, const source::Photon& photon)
       : region_(region),
         accelerator_(scene.accelerator(region)),

@@ -36,14 +36,30 @@ inline double critical_sin2(const scene::Scene& scene, core::MediumId medium, co
   return critical_sin2(photon.optics.index, scene.optics.index(medium, photon.wavelength_nm));
 }
 
-/// Region behind a boundary.
-inline core::RegionId region_behind(const scene::Scene& scene, const scene::BoundaryLink& link) {
-  const scene::Interface& interface = scene.interfaces[link.interface];
-  return link.from_back ? interface.front : interface.back;
-}
+/// critical_sin2() of a photon towards one medium after another, of which most are as the last.
+class CriticalAngle {
+ public:
+  CriticalAngle(const scene::Scene& scene, const source::Photon& photon)
+      : scene_(scene), photon_(photon), sin2_(critical_sin2(scene, medium_, photon)) {}
+
+  double sin2(core::MediumId medium) {
+    if (medium != medium_) {
+      medium_ = medium;
+      sin2_ = critical_sin2(scene_, medium, photon_);
+    }
+    return sin2_;
+  }
+
+ private:
+  const scene::Scene& scene_;
+  const source::Photon& photon_;
+  core::MediumId medium_;
+  double sin2_;
+};
+
 /// The medium of index_behind(); none: that of the photon.
 inline core::MediumId medium_behind(const scene::Scene& scene, const scene::BoundaryLink& link) {
-  const core::MediumId next = scene.regions[region_behind(scene, link)].medium;
+  const core::MediumId next = scene.regions[scene.behind(link)].medium;
   return scene.optics.is_opaque(next) ? scene.interfaces[link.interface].gap_medium : next;
 }
 
@@ -51,10 +67,6 @@ inline core::MediumId medium_behind(const scene::Scene& scene, const scene::Boun
 /// an opaque one that of the gap of a dry contact, else the photon's own, as there is no Fresnel reflection
 /// where light enters an opaque part: its reflection is defined by its surface.
 double index_behind(const scene::Scene& scene, const scene::BoundaryLink& link, const source::Photon& photon);
-
-/// True when light that enters a region through an interface reaches the sensor there, rather than passing
-/// it.
-bool reaches_sensor(const scene::Scene& scene, const scene::Interface& interface, bool from_back);
 
 /// A photon at a boundary of its region.
 struct BoundaryPlace {

@@ -68,14 +68,14 @@ struct LaneWork {
   std::uint64_t stream[2];    ///< of random numbers: core::Rng::State
   double group_index, attenuation_per_mm;  ///< absorption and scattering together
   double interactions;                     ///< boundary interactions so far: a whole number
-  double centre[3];                        ///< origin of the region's frame
+  double cosine;     ///< a result: of incidence on the face, at a boundary and at a total reflection
+  double centre[3];  ///< origin of the region's frame
+  double left;  ///< of a body: face at which the photon is, as it was reflected there; kNoFace: at none
   const double* least_sin2;  ///< per face: sine squared of the angle from which light is totally reflected
   /// Per face: refractive index behind it, where Fresnel's equations alone decide what light does there and
   /// it is flat; else 0.
   const double* index_behind;
-  double left;  ///< of a body: face at which the photon is, as it was reflected there; kNoFace: at none
   // Results.
-  double cosine;           ///< of incidence on the face, at a boundary and at a total reflection
   std::uint32_t face;      ///< reached, or unclear; not for LaneEnd::bulk and unfinished
   std::uint32_t segments;  ///< straight segments; the last of an unclear end is not counted
   LaneEnd end;
