@@ -97,7 +97,7 @@ constexpr Real log(const Real& x) {
   // x = 2^k m with m from sqrt(1/2) to sqrt(2).
   const Bits bits = bits_of(x);
   const Bits biased = (bits + Bits((kBias << 52) - kRootHalf)) >> 52;
-  const Real k = value_of(biased) - Real(static_cast<double>(kBias));
+  const Real k = value_of<Real>(biased) - Real(static_cast<double>(kBias));
   const Real f = number_of(bits - ((biased - Bits(kBias)) << 52)) - Real(1.0);
   const Real s = f / (Real(2.0) + f), z = s * s, w = z * z, half = Real(0.5) * f * f;
   const Real even = w * (Real(3.999999999940941908e-01) +

@@ -39,10 +39,6 @@ using BitsOf = typename NumberTypes<Real>::Bits;
 [[gnu::always_inline]] inline constexpr double number_of(std::uint64_t bits) {
   return std::bit_cast<double>(bits);
 }
-/// The value of a whole number below 2^53.
-[[gnu::always_inline]] inline constexpr double value_of(std::uint64_t whole) {
-  return static_cast<double>(static_cast<std::int64_t>(whole));
-}
 /// The whole part of a number from 0 to 2^31.
 [[gnu::always_inline]] inline double whole_part(double x) {
   return static_cast<double>(static_cast<std::int32_t>(x));
@@ -76,10 +72,9 @@ Real greatest(const Real& a, const Real& b) {
   return select(a > b, a, b);
 }
 
-/// The value of a whole number below 2^52: in fewer steps than value_of(), as the last bits of a number whose
-/// other bits are fixed.
+/// The value of a whole number below 2^52: the last bits of a number whose other bits are fixed.
 template <typename Real>
-Real short_value_of(const BitsOf<Real>& whole) {
+constexpr Real value_of(const BitsOf<Real>& whole) {
   return number_of(whole | BitsOf<Real>(bits_of(0x1.0p52))) - Real(0x1.0p52);
 }
 /// The bits of a whole number below 2^32, of which the lower 32 are its value.

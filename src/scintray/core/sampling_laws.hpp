@@ -57,7 +57,7 @@ struct CirclePoint {
   /// A signed number of 32 bits, as a share of 2^31.
   static Real coordinate(const BitsOf<Real>& bits) {
     constexpr double kHalf = 0x1.0p31;
-    return (short_value_of<Real>(bits ^ BitsOf<Real>(0x80000000ULL)) - Real(kHalf)) * Real(1.0 / kHalf);
+    return (value_of<Real>(bits ^ BitsOf<Real>(0x80000000ULL)) - Real(kHalf)) * Real(1.0 / kHalf);
   }
 };
 

@@ -134,8 +134,8 @@ struct TableQuantiles {
 template <typename Real>
 TableQuantiles<Real> azimuth_codes(const core::BitsOf<Real>& four) {
   const core::BitsOf<Real> mask(0xffffULL);
-  return {{core::short_value_of<Real>(four & mask), core::short_value_of<Real>((four >> 16) & mask)},
-          {core::short_value_of<Real>((four >> 32) & mask), core::short_value_of<Real>(four >> 48)}};
+  return {{core::value_of<Real>(four & mask), core::value_of<Real>((four >> 16) & mask)},
+          {core::value_of<Real>((four >> 32) & mask), core::value_of<Real>(four >> 48)}};
 }
 /// A step of these codes, rad.
 inline constexpr double azimuth_step_rad(bool folded) {

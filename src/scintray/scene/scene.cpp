@@ -107,16 +107,6 @@ bool Scene::region_contains(core::RegionId region, const Eigen::AlignedBox3d& bo
   return true;
 }
 
-bool Scene::reaches_sensor(const Interface& interface, bool from_back) const {
-  const core::SensorId id = from_back ? interface.front_sensor : interface.back_sensor;
-  if (!id.has_value()) return false;
-  const detector::Sensor& sensor = sensors[id];
-  if (sensor.converts == detector::ConvertedLight::entering) [[likely]]
-    return true;
-  const core::PartId part = from_back ? interface.front_sensor_part : interface.back_sensor_part;
-  return sensor.converts_entering() && regions[from_back ? interface.front : interface.back].part == part;
-}
-
 core::RegionId Scene::locate(const core::Vec3& point) const {
   for (const core::RegionId region : regions.ids())
     if (region != kAmbientRegion && region_contains(region, point)) return region;

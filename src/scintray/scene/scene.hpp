@@ -301,7 +301,15 @@ struct Scene : SceneRecords {
   }
   /// True when light that enters a region through an interface reaches the sensor there, rather than passing
   /// it.
-  bool reaches_sensor(const Interface& interface, bool from_back) const;
+  bool reaches_sensor(const Interface& interface, bool from_back) const {
+    const core::SensorId id = from_back ? interface.front_sensor : interface.back_sensor;
+    if (!id.has_value()) return false;
+    const detector::Sensor& sensor = sensors[id];
+    if (sensor.converts == detector::ConvertedLight::entering) [[likely]]
+      return true;
+    const core::PartId part = from_back ? interface.front_sensor_part : interface.back_sensor_part;
+    return sensor.converts_entering() && regions[from_back ? interface.front : interface.back].part == part;
+  }
   /// A triangle of a region's boundary (world, mm).
   BoundaryTriangle triangle(const Region& region, std::uint32_t number) const;
 

@@ -173,13 +173,6 @@ struct LaneBits {
   friend LaneReal<Arch> number_of(const LaneBits& bits) {
     return {xsimd::bitwise_cast<xsimd::batch<double, Arch>>(bits.lanes)};
   }
-  /// For whole numbers below 2^53: the upper and the lower 32 bits, each as the last bits of a number whose
-  /// other bits are fixed.
-  friend LaneReal<Arch> value_of(const LaneBits& whole) {
-    const LaneReal<Arch> upper = number_of((whole >> 32) | LaneBits(bits_of(0x1.0p84)));
-    const LaneReal<Arch> lower = number_of((whole & LaneBits(0xffffffffULL)) | LaneBits(bits_of(0x1.0p52)));
-    return (upper - LaneReal<Arch>(0x1.00000001p84)) + lower;
-  }
 };
 
 template <int kCount, typename Arch>
@@ -298,7 +291,6 @@ struct LaneBitsPair {
   friend LaneBitsPair operator<<(const LaneBitsPair& x, int count) { return {x.a << count, x.b << count}; }
   friend LaneBitsPair operator>>(const LaneBitsPair& x, int count) { return {x.a >> count, x.b >> count}; }
   friend LaneRealPair<Arch> number_of(const LaneBitsPair& x) { return {number_of(x.a), number_of(x.b)}; }
-  friend LaneRealPair<Arch> value_of(const LaneBitsPair& x) { return {value_of(x.a), value_of(x.b)}; }
 };
 
 template <int kCount, typename Arch>

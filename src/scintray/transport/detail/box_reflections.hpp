@@ -1,12 +1,12 @@
 #pragma once
-/// Total reflections of light in a box along the axes, many at once, for one photon and for one in each lane of
-/// a vector. No Eigen: the files of the lanes are compiled for instruction sets of their own.
+/// Total reflections of light in a box along the axes, many at once, for one photon and for one in each lane
+/// of a vector. No Eigen: the files of the lanes are compiled for instruction sets of their own.
 ///
 /// A total reflection at a face of a box changes the sign of one component of the direction. The magnitudes
-/// stay, and with them the angle of incidence on every face, so that it is known beforehand which faces reflect
-/// a photon totally. Across each axis it moves back and forth as if it were alone there: it arrives at the face
-/// ahead after some path, and from then on at the one and the other face in turn after equal paths. (In the
-/// mirror images of the box beside each other the photon flies straight on.)
+/// stay, and with them the angle of incidence on every face, so that it is known beforehand which faces
+/// reflect a photon totally. Across each axis it moves back and forth as if it were alone there: it arrives
+/// at the face ahead after some path, and from then on at the one and the other face in turn after equal
+/// paths. (In the mirror images of the box beside each other the photon flies straight on.)
 
 #include <limits>
 
@@ -61,8 +61,8 @@ class BoxAxis {
     end_mm_ = select(totally_reflected(speed, least_ahead), to_second, arrival_mm_);
   }
 
-  /// Path (mm) to the first face that does not reflect the photon totally. No number, which is not below others,
-  /// of a photon that is on such a face and flies along it.
+  /// Path (mm) to the first face that does not reflect the photon totally. No number, which is not below
+  /// others, of a photon that is on such a face and flies along it.
   const Real& end_mm() const { return end_mm_; }
   /// 1 / magnitude of the component of the direction.
   const Real& per_speed() const { return per_speed_; }
@@ -75,8 +75,7 @@ class BoxAxis {
     // Not more than a whole number of few bits: the others remain for another time.
     constexpr double kMost = 0x1.0p30;
     const Real none(0.0);
-    const Real whole =
-        whole_part(greatest(least((path_mm - arrival_mm_) * per_mm_, Real(kMost)), none));
+    const Real whole = whole_part(greatest(least((path_mm - arrival_mm_) * per_mm_, Real(kMost)), none));
     some_ = path_mm > arrival_mm_;
     count_ = select(some_, whole + Real(1.0), none);
     last_mm_ = select(some_, arrival_mm_ + whole * period_mm_, none);

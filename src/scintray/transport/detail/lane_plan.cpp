@@ -13,7 +13,8 @@ LaneKinds lane_kinds(const scene::Scene& scene, int lane_width) {
   const LaneKernels kernels = lane_kernels(lane_width);
   LaneKinds kinds;
   for (const scene::Region& region : scene.regions) {
-    const bool has_kernel = region.lanes == LaneKind::surfaces ? kernels.run != nullptr : kernels.propagate != nullptr;
+    const bool has_kernel =
+        region.lanes == LaneKind::surfaces ? kernels.run != nullptr : kernels.propagate != nullptr;
     kinds.push_back(has_kernel ? region.lanes : LaneKind::none);
   }
   return kinds;

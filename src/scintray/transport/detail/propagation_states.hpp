@@ -144,8 +144,7 @@ class UnfoldedPropagation : public StoredPropagation {
     photon_.position = core::Vec3(passed.x.coordinate(faces_[0], at.x(), centre.x(), path_mm),
                                   passed.y.coordinate(faces_[1], at.y(), centre.y(), path_mm),
                                   passed.z.coordinate(faces_[2], at.z(), centre.z(), path_mm));
-    photon_.ray.direction =
-        core::Vec3(passed.x.direction(), passed.y.direction(), passed.z.direction());
+    photon_.ray.direction = core::Vec3(passed.x.direction(), passed.y.direction(), passed.z.direction());
     const core::PlainVec3 polarisation = photon_.ray.polarisation;
     const auto turned = [&passed](double component, const BoxAxis<double>& axis) {
       return core::number_of(core::bits_of(component) ^ passed.turns(axis));

@@ -1,6 +1,6 @@
 #pragma once
-/// Photons in lanes in a region that is a box along the axes of its frame: total reflections are passed many at
-/// once, and the segment after them, which nearly always ends in another event, as any.
+/// Photons in lanes in a region that is a box along the axes of its frame: total reflections are passed many
+/// at once, and the segment after them, which nearly always ends in another event, as any.
 
 #include "scintray/core/lanes/lane_fours.hpp"
 #include "scintray/transport/detail/box_reflections.hpp"
@@ -27,8 +27,8 @@ class LanesInBox {
       per_length_[axis] = Real(1.0 / (box.plane(2 * axis)[3] + box.plane(2 * axis + 1)[3]));
   }
 
-  /// Moves all photons to their next event but for a total reflection, or by one segment after which they have
-  /// none.
+  /// Moves all photons to their next event but for a total reflection, or by one segment after which they
+  /// have none.
   /// @return a bit for each lane whose photon goes on
   unsigned pass(LaneWork* const (&photons)[kWidth]) const {
     const auto row = [&](std::size_t offset) {
@@ -51,11 +51,11 @@ class LanesInBox {
     const Faces at_x{box_.offset_mm[0], box_.offset_mm[1], per_length_[0], of_xy.of[0], of_xy.of[1]};
     const Faces at_y{box_.offset_mm[2], box_.offset_mm[3], per_length_[1], of_xy.of[2], of_xy.of[3]};
     const Faces at_z{box_.offset_mm[4], box_.offset_mm[5], per_length_[2], of_z.of[2], of_z.of[3]};
-    const BoxReflections<Real> passed(
-        Axis(at_x, p.of[0] - centre.x, d.of[0]), Axis(at_y, p.of[1] - centre.y, d.of[1]),
-        Axis(at_z, p.of[2] - centre.z, d.of[2]),
-        {e.of[3], attenuation, Real(limits_.time_ns) - d.of[3], time_per_mm,
-         Real(limits_.interactions) - numbers.of[2]});
+    const BoxReflections<Real> passed(Axis(at_x, p.of[0] - centre.x, d.of[0]),
+                                      Axis(at_y, p.of[1] - centre.y, d.of[1]),
+                                      Axis(at_z, p.of[2] - centre.z, d.of[2]),
+                                      {e.of[3], attenuation, Real(limits_.time_ns) - d.of[3], time_per_mm,
+                                       Real(limits_.interactions) - numbers.of[2]});
     const Vector position{passed.x.coordinate(at_x, p.of[0], centre.x, passed.path_mm),
                           passed.y.coordinate(at_y, p.of[1], centre.y, passed.path_mm),
                           passed.z.coordinate(at_z, p.of[2], centre.z, passed.path_mm)};

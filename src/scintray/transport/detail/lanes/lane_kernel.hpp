@@ -70,7 +70,7 @@ struct LaneWork {
   double interactions;                     ///< boundary interactions so far: a whole number
   double cosine;     ///< a result: of incidence on the face, at a boundary and at a total reflection
   double centre[3];  ///< origin of the region's frame
-  double left;  ///< of a body: face at which the photon is, as it was reflected there; kNoFace: at none
+  double left;       ///< of a body: face at which the photon is, as it was reflected there; kNoFace: at none
   const double* least_sin2;  ///< per face: sine squared of the angle from which light is totally reflected
   /// Per face: refractive index behind it, where Fresnel's equations alone decide what light does there and
   /// it is flat; else 0.

@@ -1,6 +1,6 @@
 #include "scintray/transport/detail/lanes/lane_body_walls.hpp"
-#include "scintray/transport/detail/lanes/lane_in_box.hpp"
 #include "scintray/transport/detail/lanes/lane_flat_walls.hpp"
+#include "scintray/transport/detail/lanes/lane_in_box.hpp"
 
 namespace scintray::transport {
 
