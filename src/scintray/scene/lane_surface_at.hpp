@@ -37,6 +37,15 @@ inline core::SurfaceId absorbing_surface(const Scene& scene, const BoundaryLink&
   return first.id == interface.back_surface ? interface.front_surface : interface.back_surface;
 }
 
+/// The medium behind the surface that light which leaves a region interacts with: that of the gap of a dry
+/// contact, else the next region's; none where that is opaque, as indices are then matched.
+inline core::MediumId medium_behind_surface(const Scene& scene, const BoundaryLink& link) {
+  const Interface& interface = scene.interfaces[link.interface];
+  if (interface.gap_medium.has_value()) return interface.gap_medium;
+  const core::MediumId next = scene.regions[scene.behind(link)].medium;
+  return scene.optics.is_opaque(next) ? core::MediumId() : next;
+}
+
 /// The surface at a boundary triangle's interface. Of a reflector from behind the reflector alone; of a dry
 /// contact with one the surface of this region's part, the gap, and the reflector. Nothing where photons are
 /// scattered one by one: other dry contacts, tables from behind, surfaces that are not for lanes, all next to

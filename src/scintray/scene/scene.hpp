@@ -149,6 +149,20 @@ struct BoundaryLink {
 };
 static_assert(std::is_trivially_copyable_v<BoundaryLink> && sizeof(BoundaryLink) == 12);
 
+/// What decides on total reflection at a boundary where it depends on the angle of incidence alone
+/// (total_reflection.hpp).
+struct TotalReflection {
+  enum class By : std::uint8_t {
+    nothing,         ///< there is none, or the surface is not smooth
+    critical_angle,  ///< of a plain interface
+    fresnel,         ///< Fresnel's equations at a smooth surface with more behind it
+  };
+  By by = By::nothing;
+  core::MediumId behind;   ///< medium behind the surface
+  core::SurfaceId gap_of;  ///< or its gap is
+  bool operator==(const TotalReflection&) const = default;
+};
+
 /// How photons in a region are traced in the lanes of vector registers, where that is faster.
 enum class LaneKind : std::uint8_t {
   none,      ///< they are traced one by one
@@ -164,7 +178,7 @@ struct Region {
   std::uint32_t first_link = 0;  ///< of its triangles', in SceneRecords::links
   bool rotated = false;          ///< `rotation` is not the identity
   LaneKind lanes = LaneKind::none;
-  /// Its boundary is a box, and `lanes` is LaneKind::smooth: total reflections in it are passed many at once
+  /// Its boundary is a box of which most reflects totally: total reflections in it are passed many at once
   /// (transport's box_reflections.hpp), in lanes and without.
   bool unfolds = false;
   bool curved = false;     ///< its accelerator has exact bodies
@@ -262,6 +276,12 @@ struct Scene : SceneRecords {
   core::IdVector<core::SensorId, detector::Sensor> sensors;
   /// Distinct accelerators; regions of one shape share one. A copy of a scene shares them.
   core::IdVector<core::AcceleratorId, std::shared_ptr<const Accelerator>> accelerators;
+
+  /// For light that leaves the front and the back region of each interface; empty where no region unfolds.
+  std::vector<TotalReflection> total_reflections;
+  const TotalReflection& total_reflection(const BoundaryLink& link) const {
+    return total_reflections[2 * link.interface.index() + (link.from_back ? 1 : 0)];
+  }
 
   core::IdVector<core::RegionId, std::string> region_names;
   core::IdVector<core::PartId, PartInfo> parts;

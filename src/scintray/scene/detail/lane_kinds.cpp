@@ -4,6 +4,7 @@
 
 #include "scintray/scene/detail/lane_kinds.hpp"
 #include "scintray/scene/lane_surface_at.hpp"
+#include "scintray/scene/total_reflection.hpp"
 
 namespace scintray::scene {
 
@@ -15,10 +16,12 @@ class KindSearch {
  public:
   explicit KindSearch(const Scene& scene) : scene_(scene), sides_(2 * scene.interfaces.size()) {
     areas_.resize(scene.accelerators.size());
+    unfolds_.resize(scene.regions.size());
     kinds_.resize(scene.regions.size());
     without_others_.resize(scene.regions.size());
   }
 
+  bool unfolds(core::RegionId id) const { return unfolds_[id]; }
   core::IdVector<core::RegionId, LaneKind> find() {
     each([&](core::RegionId id) { set_by_itself(id); });
     // Each region that is left out may be one into which light of others goes.
@@ -44,6 +47,7 @@ class KindSearch {
   struct Side {
     bool known = false;
     LaneLink link;
+    double total = 0.0;           ///< share of diffuse light that is totally reflected at it
     bool may_cross = false;       ///< into the next region, where that is in lanes
     Way otherwise = Way::leaves;  ///< where it is not
   };
@@ -59,13 +63,22 @@ class KindSearch {
     side.known = true;
     const Interface& interface = scene_.interfaces[link.interface];
     const core::RegionId here = link.from_back ? interface.back : interface.front;
-    side.link = lane_link(scene_, scene_.regions[here].medium, link);
+    const core::MediumId medium = scene_.regions[here].medium;
+    side.link = lane_link(scene_, medium, link);
+    side.total = total_share(medium, link);
     const std::optional<optics::LaneSurface> surface = lane_surface_at(scene_, link);
     if (!surface) return side;
     side.may_cross = !surface->reflector && !scene_.reaches_sensor(interface, link.from_back);
     if (surface->reflector || surface->micro != optics::LaneSurface::Micro::smooth)
       side.otherwise = Way::returns;
     return side;
+  }
+  /// By a cosine law in the middle of the wavelengths in use.
+  double total_share(core::MediumId here, const BoundaryLink& link) const {
+    if (scene_.optics.is_opaque(here)) return 0.0;
+    const double middle_nm = scene_.optics.media[here].middle_nm();
+    return 1.0 - std::min(1.0, least_sin2(scene_, total_reflection(scene_, link),
+                                          scene_.optics.index(here, middle_nm), middle_nm));
   }
   Way way_of(const BoundaryLink& link) {
     const Side& side = side_of(link);
@@ -85,13 +98,22 @@ class KindSearch {
   void set_by_itself(core::RegionId id) {
     const Region& region = scene_.regions[id];
     const Accelerator& accelerator = scene_.accelerator(region);
-    if (region.rotated || scene_.optics.media[region.medium].birefringent ||
-        !(accelerator.uses_planes() || accelerator.is_convex_body() || region.thin_gaps))
-      return;
+    if (scene_.optics.media[region.medium].birefringent) return;
+    const bool in_lanes =
+        !region.rotated && (accelerator.uses_planes() || accelerator.is_convex_body() || region.thin_gaps);
+    const bool is_box = accelerator.boundary().is_box;
+    if (!in_lanes && !is_box) return;
     const BoundaryLink* const links = scene_.links_of(region);
     const std::vector<double>& areas = areas_of(region);
     LaneShares shares;
-    for (std::size_t i = 0; i < areas.size(); ++i) shares.add(areas[i], side_of(links[i]).link);
+    double total = 0.0;
+    for (std::size_t i = 0; i < areas.size(); ++i) {
+      const Side& side = side_of(links[i]);
+      shares.add(areas[i], side.link);
+      total += areas[i] * side.total;
+    }
+    unfolds_[id] = is_box && shares.is_most(total);
+    if (!in_lanes) return;
     // With few total reflections in a row, entering and leaving the lanes costs more than they save.
     if (shares.is_most(shares.smooth) && shares.is_most(shares.total) && !region.thin_gaps)
       without_others_[id] = LaneKind::smooth;
@@ -123,18 +145,27 @@ class KindSearch {
   std::vector<Side> sides_;  ///< two per interface
   core::IdVector<core::AcceleratorId, std::vector<double>> areas_;
   core::IdVector<core::RegionId, LaneKind> kinds_;
+  core::IdVector<core::RegionId, char> unfolds_;
   core::IdVector<core::RegionId, LaneKind> without_others_;  ///< where light that leaves one leaves the lanes
 };
 
 }  // namespace
 
 void set_lane_kinds(Scene& scene) {
-  const core::IdVector<core::RegionId, LaneKind> kinds = KindSearch(scene).find();
+  KindSearch search(scene);
+  const core::IdVector<core::RegionId, LaneKind> kinds = search.find();
+  bool some_unfold = false;
   for (std::uint32_t i = 0; i < scene.regions.size(); ++i) {
     Region& region = scene.regions[core::RegionId(i)];
     region.lanes = kinds[core::RegionId(i)];
-    region.unfolds = region.lanes == LaneKind::smooth && scene.accelerator(region).boundary().is_box;
+    region.unfolds = search.unfolds(core::RegionId(i));
+    some_unfold = some_unfold || region.unfolds;
   }
+  if (!some_unfold) return;
+  for (std::uint32_t i = 0; i < scene.interfaces.size(); ++i)
+    for (const bool from_back : {false, true})
+      scene.total_reflections.push_back(
+          total_reflection(scene, {core::InterfaceId(i), core::MediumId(), from_back}));
 }
 
 }  // namespace scintray::scene

@@ -1,13 +1,13 @@
 #include "scintray/transport/detail/lane_scene.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <limits>
 #include <map>
 #include <new>
 
 #include "scintray/optics/facet_laws.hpp"
 #include "scintray/scene/lane_surface_at.hpp"
+#include "scintray/scene/total_reflection.hpp"
 #include "scintray/transport/detail/step_parts.hpp"
 
 namespace scintray::transport {
@@ -43,23 +43,6 @@ void set_facets(const optics::FacetSurface& facets, LaneFaceOptics& face) {
   face.by_area = limits.by_area ? 1.0 : 0.0;
 }
 
-/// The positive number that is `steps` numbers of double precision above another.
-double next_to(double positive, std::int64_t steps) {
-  return std::bit_cast<double>(std::bit_cast<std::int64_t>(positive) + steps);
-}
-
-/// The least 1 - cosine^2 for which Fresnel's equations (optics::RefractionOf) find total reflection, to the
-/// last bit; for a surface that is met as Fresnel's equations see it, not by the critical angle of a plain
-/// interface. Products of positive numbers are monotonic, so that there is one.
-double least_total_sin2(double n1, double n2) {
-  const double ratio = n1 / n2, ratio2 = ratio * ratio;
-  if (!(ratio2 > 1.0)) return kNoTotalReflection;
-  double least = 1.0 / ratio2;
-  while (ratio2 * least < 1.0) least = next_to(least, 1);
-  while (ratio2 * next_to(least, -1) >= 1.0) least = next_to(least, -1);
-  return least;
-}
-
 template <typename Record>
 Record& record_at(std::vector<LaneRecord>& records, std::size_t place) {
   return *std::launder(reinterpret_cast<Record*>(&records[place]));
@@ -88,6 +71,9 @@ LaneScene::LaneScene(const scene::Scene& scene, const LaneKinds& kinds) : scene_
       if (kinds[core::RegionId(i)] == LaneKind::surfaces) act(core::RegionId(i));
   };
   each([&](core::RegionId id) { make_faces(id); });
+  each([&](core::RegionId id) {
+    if (scene.regions[id].unfolds) make_mirrors(regions_[id]);
+  });
   each([&](core::RegionId id) {
     link_faces(id, kinds);
     LaneRegion& region = regions_[id].region;
@@ -134,6 +120,7 @@ void LaneScene::add_planes(const scene::Boundary& boundary, Shape& shape) {
   for (std::size_t axis = 0; boundary.is_box && axis < 3; ++axis) {
     shape.box.first_mm[axis] = boundary.planes[2 * axis].offset;
     shape.box.second_mm[axis] = boundary.planes[2 * axis + 1].offset;
+    shape.box.per_length[axis] = 1.0 / (shape.box.first_mm[axis] + shape.box.second_mm[axis]);
   }
   for (std::size_t i = 0; i < boundary.planes.size();) {
     const scene::BoundingPlane& first = boundary.planes[i];
@@ -223,6 +210,16 @@ void LaneScene::make_faces(core::RegionId id) {
   add_medium(region.medium);
 }
 
+void LaneScene::make_mirrors(MadeRegion& region) {
+  Mirrors mirrors;
+  for (std::size_t i = 0; i < mirrors.size(); ++i) mirrors[i] = region.faces[i].optics;
+  const auto known = std::find(mirrors_.begin(), mirrors_.end(), mirrors);
+  region.region.unfolds = 1;
+  region.region.mirrors = static_cast<std::uint32_t>(place_of_mirrors(known - mirrors_.begin()));
+  if (known == mirrors_.end()) mirrors_.push_back(mirrors);
+  unfolds_ = true;
+}
+
 void LaneScene::add_medium(core::MediumId medium) {
   if (medium.has_value() && std::find(media_.begin(), media_.end(), medium) == media_.end())
     media_.push_back(medium);
@@ -278,7 +275,7 @@ std::size_t LaneScene::alike(const scene::BoundaryLink& link, core::MediumId her
   for (std::size_t i = 0; i < alike_.size(); ++i)
     if (alike_[i].here == here && are_alike(scene_, alike_[i].link, link)) return place_of(i);
   const scene::Interface& interface = scene_.interfaces[link.interface];
-  AlikeFaces faces{link, here, medium_behind(scene_, link), surface};
+  AlikeFaces faces{link, here, scene::medium_behind_surface(scene_, link), surface};
   if (surface.table) faces.tables = tables_of(*surface.table);
   if (surface.facets) set_facets(*surface.facets, faces.constant);
   if (surface.reflector) {
@@ -287,11 +284,8 @@ std::size_t LaneScene::alike(const scene::BoundaryLink& link, core::MediumId her
     const optics::Surface& stack = scene_.surfaces[scene::first_surface(interface, link.from_back).id];
     if (surface.micro != Micro::painted && stack.reflector) faces.gap_index = &stack.gap_index;
   }
+  faces.total = scene::total_reflection(scene_, link);
   faces.plain = interface.plain;
-  if (!interface.plain && surface.micro == Micro::smooth)
-    faces.total = AlikeFaces::Total::fresnel;
-  else if (link.smooth_to.has_value() && faces.behind.has_value())
-    faces.total = AlikeFaces::Total::critical;
   add_medium(faces.behind);
   alike_.push_back(faces);
   return place_of(alike_.size() - 1);
@@ -314,7 +308,7 @@ const LaneTable* LaneScene::tables_of(const optics::SurfaceTable& table) {
 }
 
 std::vector<LaneRecord> LaneScene::initial_records() const {
-  std::vector<LaneRecord> records(place_of(alike_.size()));
+  std::vector<LaneRecord> records(place_of_mirrors(mirrors_.size()));
   for (const core::MediumId medium : media_) new (&records[medium.index()]) LaneMedium{};
   (new (&records[no_surface()]) LaneFaceOptics{})->least_sin2 = kNoTotalReflection;
   for (std::size_t i = 0; i < alike_.size(); ++i)
@@ -343,8 +337,7 @@ void LaneScene::set_wavelength(double wavelength_nm, AtWavelength& to) const {
     const double index_behind = alike.gap_index != nullptr ? (*alike.gap_index)(wavelength_nm) : beneath;
     at.index_behind = index_behind;
     at.counted = !alike.plain || here != next ? 1.0 : 0.0;
-    if (alike.total == AlikeFaces::Total::critical) at.least_sin2 = critical_sin2(here, next);
-    if (alike.total == AlikeFaces::Total::fresnel) at.least_sin2 = least_total_sin2(here, index_behind);
+    at.least_sin2 = scene::least_sin2(scene_, alike.total, here, wavelength_nm);
     if (alike.surface.table) {
       const auto between = alike.surface.table->between_wavelengths(wavelength_nm);
       at.table = alike.tables + between.first;
@@ -352,6 +345,10 @@ void LaneScene::set_wavelength(double wavelength_nm, AtWavelength& to) const {
     }
     if (alike.surface.reflector) at.reflectance = alike.surface.reflector->reflectance(wavelength_nm);
   }
+  for (std::size_t i = 0; i < mirrors_.size(); ++i)
+    for (std::size_t face = 0; face < mirrors_[i].size(); ++face)
+      to.records[place_of_mirrors(i) + face / 4].of[face % 4] =
+          record_at<LaneFaceOptics>(to.records, mirrors_[i][face]).least_sin2;
 }
 
 }  // namespace scintray::transport

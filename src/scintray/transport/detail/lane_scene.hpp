@@ -68,6 +68,8 @@ class LaneScene {
   bool has_boxes_alone() const { return has_boxes_alone_; }
   /// Whether all regions bounded by planes have one shape.
   bool has_one_shape() const { return has_one_shape_; }
+  /// Whether some region unfolds.
+  bool unfolds() const { return unfolds_; }
   /// Whether some region has gaps.
   bool has_gaps() const { return has_gaps_; }
   /// Whether some face has a region behind it that is in lanes as well.
@@ -106,29 +108,30 @@ class LaneScene {
   };
   /// Faces that have the same surface between the same media.
   struct AlikeFaces {
-    /// What decides on total reflection at a smooth surface: nothing (there is none, or the surface is
-    /// rough), the critical angle of a plain interface, or Fresnel's equations.
-    enum class Total { none, critical, fresnel };
     scene::BoundaryLink link;     ///< of one of them
-    core::MediumId here, behind;  ///< behind: of index_behind(); none: as here
+    core::MediumId here, behind;  ///< behind: of scene::medium_behind_surface(); none: as here
     optics::LaneSurface surface;
     const LaneTable* tables = nullptr;       ///< of a table: the first of tables_of()
     LaneFaceOptics constant{};               ///< what does not depend on the wavelength; the rest is 0
     const core::Curve* gap_index = nullptr;  ///< of the gap behind the surface; null: there is none
     bool plain = false;                      ///< scene::Interface::plain
-    Total total = Total::none;
+    scene::TotalReflection total = {};
   };
 
   void add_planes(const scene::Boundary& boundary, Shape& shape);
   static void add_gaps(const scene::Accelerator& accelerator, Shape& shape);
   const Shape& shape_of(const scene::Region& region);
   void make_faces(core::RegionId id);
+  /// Where the total reflections of a region that unfolds come from; requires all faces.
+  void make_mirrors(MadeRegion& region);
   /// Adds one of those whose numbers depend on the wavelength, unless it is there; none is not added.
   void add_medium(core::MediumId medium);
   LaneFace face(const scene::Region& region, const Shape& shape, std::uint32_t number);
   /// Places among AtWavelength::records: of a face that has no surface for lanes, and of those alike.
   std::size_t no_surface() const { return scene_.optics.media.size(); }
   std::size_t place_of(std::size_t alike) const { return no_surface() + (alike + 1) * kRecords; }
+  /// Place of the records of a region that unfolds: behind all those of faces.
+  std::size_t place_of_mirrors(std::size_t mirrors) const { return place_of(alike_.size()) + 2 * mirrors; }
   /// Place of the faces alike.
   std::size_t alike(const scene::BoundaryLink& link, core::MediumId here, const optics::LaneSurface& surface);
   /// AtWavelength::records, whose numbers that depend on the wavelength are not set.
@@ -145,8 +148,11 @@ class LaneScene {
   core::IdVector<core::AcceleratorId, Shape> shapes_;  ///< without triangles: not made
   core::IdVector<core::RegionId, MadeRegion> regions_;
   LaneRegion any_planes_;
-  bool has_boxes_alone_ = true, has_one_shape_ = true, has_gaps_ = false, has_neighbours_ = false;
+  bool has_boxes_alone_ = true, has_one_shape_ = true, has_gaps_ = false, has_neighbours_ = false,
+       unfolds_ = false;
   std::vector<AlikeFaces> alike_;
+  using Mirrors = std::array<std::size_t, 6>;
+  std::vector<Mirrors> mirrors_;  ///< of regions that unfold: place of the LaneFaceOptics of each face
   std::vector<core::MediumId> media_;
   std::vector<LaneRecord> initial_;  ///< initial_records()
   std::map<const optics::SurfaceTable*, std::vector<LaneTable>> tables_;

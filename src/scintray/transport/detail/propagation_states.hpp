@@ -112,12 +112,6 @@ class UnfoldedPropagation : public StoredPropagation {
         photon_(photon),
         attenuation_per_mm_(photon.optics.absorption_per_mm + photon.optics.scattering_per_mm) {
     const std::vector<scene::BoundingPlane>& planes = scene.accelerator(region).boundary().planes;
-    const scene::BoundaryLink* const links = scene.links_of(region);
-    CriticalAngle critical(scene, photon);
-    const auto least_sin2 = [&](const scene::BoundingPlane& plane) {
-      const bool leads_to_several = plane.triangles_begin != plane.triangles_end;
-      return critical.sin2(leads_to_several ? core::MediumId() : links[plane.first].smooth_to);
-    };
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const scene::BoundingPlane &first = planes[2 * axis], &second = planes[2 * axis + 1];
       faces_[axis] = {first.offset, second.offset, 1.0 / (first.offset + second.offset), least_sin2(first),
@@ -127,31 +121,36 @@ class UnfoldedPropagation : public StoredPropagation {
 
   /// Passes total reflections up to shortly before the next other event. @return their number
   std::uint32_t pass_reflections(const PropagationLimits& limits) {
-    const core::PlainVec3 &at = photon_.position, &direction = photon_.ray.direction;
-    const core::Vec3 local = region_.point_to_local(at);
+    const core::Vec3 from = region_.point_to_local(photon_.position);
+    const core::Vec3 direction = region_.direction_to_local(photon_.ray.direction);
     const double time_per_mm = time_along(1.0, photon_.optics.group_index);
     const BoxReflections<double> passed(
-        {faces_[0], local.x(), direction.x()}, {faces_[1], local.y(), direction.y()},
-        {faces_[2], local.z(), direction.z()},
+        {faces_[0], from.x(), direction.x()}, {faces_[1], from.y(), direction.y()},
+        {faces_[2], from.z(), direction.z()},
         {photon_.optical_depth, attenuation_per_mm_, limits.time_ns - photon_.time_ns, time_per_mm,
          static_cast<double>(limits.interactions) - static_cast<double>(photon_.interactions)});
     const auto count = static_cast<std::uint32_t>(passed.count);
     if (count == 0) return 0;
     if (limits.passed) [[unlikely]]
       show(count, limits);
-    const core::PlainVec3& centre = region_.centre;
     const double path_mm = passed.path_mm;
-    photon_.position = core::Vec3(passed.x.coordinate(faces_[0], at.x(), centre.x(), path_mm),
-                                  passed.y.coordinate(faces_[1], at.y(), centre.y(), path_mm),
-                                  passed.z.coordinate(faces_[2], at.z(), centre.z(), path_mm));
-    photon_.ray.direction = core::Vec3(passed.x.direction(), passed.y.direction(), passed.z.direction());
-    const core::PlainVec3 polarisation = photon_.ray.polarisation;
+    // Without a rotation from the world's own coordinates, as the lanes do.
+    const core::Vec3 at = region_.rotated ? from : photon_.position.vec();
+    const core::Vec3 centre = region_.rotated ? core::Vec3(core::Vec3::Zero()) : region_.centre.vec();
+    const core::Vec3 there(passed.x.coordinate(faces_[0], at.x(), centre.x(), path_mm),
+                           passed.y.coordinate(faces_[1], at.y(), centre.y(), path_mm),
+                           passed.z.coordinate(faces_[2], at.z(), centre.z(), path_mm));
+    photon_.position =
+        region_.rotated ? core::Vec3(region_.centre + region_.direction_to_world(there)) : there;
+    photon_.ray.direction = region_.direction_to_world(
+        core::Vec3(passed.x.direction(), passed.y.direction(), passed.z.direction()));
+    const core::Vec3 polarisation = region_.direction_to_local(photon_.ray.polarisation);
     const auto turned = [&passed](double component, const BoxAxis<double>& axis) {
       return core::number_of(core::bits_of(component) ^ passed.turns(axis));
     };
-    photon_.ray.polarisation =
-        core::Vec3(turned(polarisation.x(), passed.x), turned(polarisation.y(), passed.y),
-                   turned(polarisation.z(), passed.z));
+    photon_.ray.polarisation = region_.direction_to_world(core::Vec3(turned(polarisation.x(), passed.x),
+                                                                     turned(polarisation.y(), passed.y),
+                                                                     turned(polarisation.z(), passed.z)));
     photon_.path_mm += path_mm;
     photon_.time_ns += path_mm * time_per_mm;
     photon_.optical_depth -= attenuation_per_mm_ * path_mm;
@@ -160,6 +159,17 @@ class UnfoldedPropagation : public StoredPropagation {
   }
 
  private:
+  double least_sin2(const scene::BoundingPlane& plane) {
+    const bool leads_to_several = plane.triangles_begin != plane.triangles_end;
+    const scene::TotalReflection at = leads_to_several
+                                          ? scene::TotalReflection()
+                                          : scene_.total_reflection(scene_.link(region_, plane.first));
+    if (at != last_) {
+      last_ = at;
+      last_sin2_ = scene::least_sin2(scene_, at, photon_.optics.index, photon_.wavelength_nm);
+    }
+    return last_sin2_;
+  }
   /// Shows the next total reflections, of another photon that passes one after another.
   void show(std::uint32_t count, const PropagationLimits& limits) const {
     source::Photon photon = photon_;
@@ -178,6 +188,8 @@ class UnfoldedPropagation : public StoredPropagation {
   source::Photon& photon_;
   double attenuation_per_mm_;
   BoxAxis<double>::Faces faces_[3];
+  scene::TotalReflection last_;
+  double last_sin2_ = scene::kNeverTotal;
 };
 
 /// A photon in a region with exact round faces. At each face its position is moved onto the face, and the

@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "scintray/scene/total_reflection.hpp"
 #include "scintray/transport/step.hpp"
 
 namespace scintray::transport {
@@ -24,16 +25,10 @@ struct Propagation {
   std::uint32_t resolved = 0;                   ///< ray queries that the exact query resolved
 };
 
-/// sin^2 of the critical angle from a refractive index to another; above 1 without total reflection.
-inline double critical_sin2(double index_here, double index_behind) {
-  const double ratio = index_behind / index_here;
-  return ratio * ratio;
-}
 /// sin^2 of the critical angle towards a medium; above 1 without total reflection, as for no medium.
 inline double critical_sin2(const scene::Scene& scene, core::MediumId medium, const source::Photon& photon) {
-  constexpr double kNever = 2.0;
-  if (!medium.has_value() || scene.optics.is_opaque(medium)) return kNever;
-  return critical_sin2(photon.optics.index, scene.optics.index(medium, photon.wavelength_nm));
+  if (!medium.has_value() || scene.optics.is_opaque(medium)) return scene::kNeverTotal;
+  return scene::critical_sin2(photon.optics.index, scene.optics.index(medium, photon.wavelength_nm));
 }
 
 /// critical_sin2() of a photon towards one medium after another, of which most are as the last.

@@ -31,6 +31,7 @@ SurfaceLanes::SurfaceLanes(const scene::Scene& scene, const LaneScene& lanes, co
   if (pool_.one_wavelength) lanes.set_wavelength(scene.low_nm, at_first_);
   pool_.has_neighbours = lanes.has_neighbours();
   pool_.has_gaps = lane_scene_.has_gaps();
+  pool_.unfolds = lane_scene_.unfolds();
   pool_.boxes = lane_scene_.has_boxes_alone();
   pool_.one_box = pool_.boxes && lane_scene_.has_one_shape();
   for (std::uint32_t slot = LanePool::kPhotons; slot-- > 0;) free_.push_back(slot);

@@ -6,6 +6,7 @@
 /// lanes take part; then they return to the pool. Photons that are not in a stage are masked. Time is
 /// proportional to instructions, so the rejection sampling of facets is repeated on its own.
 
+#include "scintray/transport/detail/box_reflections.hpp"
 #include "scintray/transport/detail/lanes/lane_box.hpp"
 #include "scintray/transport/detail/lanes/lane_planes.hpp"
 #include "scintray/transport/detail/lanes/lane_surfaces.hpp"
@@ -220,8 +221,58 @@ class LanePasses : LaneSurfaces<Real, kOneWavelength> {
     return {{first.of[0], second.of[0], first.of[1], second.of[1], first.of[2], second.of[2]}};
   }
 
+  /// Through total reflections in regions that unfold, as UnfoldedPropagation.
+  void pass_reflections(Now& now, const Mask& here) {
+    using Axis = BoxAxis<Real>;
+    using Faces = typename Axis::Faces;
+    static constexpr LaneRecord kNever[2] = {
+        {{kNoTotalReflection, kNoTotalReflection, kNoTotalReflection, kNoTotalReflection}},
+        {{kNoTotalReflection, kNoTotalReflection, kNoTotalReflection, kNoTotalReflection}}};
+    const double *mirrors[kWidth], *places[kWidth];
+    std::uint32_t some = 0;
+    for (std::size_t lane = 0; lane < kWidth; ++lane) {
+      const LaneRegion& region = photon_[lane]->region;
+      mirrors[lane] = one_of(region.unfolds, photon_[lane]->optics + region.mirrors, kNever)->of;
+      places[lane] = region.box->first_mm;
+      some |= region.unfolds;
+    }
+    if (some == 0) return;
+    const LaneFours<Real> sin2 = row_of(mirrors, 0), last_sin2 = row_of(mirrors, 1);
+    const LaneFours<Real> first = row_of(places, 0), second = row_of(places, 1),
+                          per_length = row_of(places, 2);
+    const Faces at_x{first.of[0], second.of[0], per_length.of[0], sin2.of[0], sin2.of[1]};
+    const Faces at_y{first.of[1], second.of[1], per_length.of[1], sin2.of[2], sin2.of[3]};
+    const Faces at_z{first.of[2], second.of[2], per_length.of[2], last_sin2.of[0], last_sin2.of[1]};
+    const Vector position = load(position_), centre = load(centre_), from = position - centre;
+    const Light light = now.light;
+    const Real depth_left = load(depth_left_), attenuation = load(attenuation_per_mm_), time = load(time_ns_);
+    const Real time_per_mm = time_along(Real(1.0), load(group_index_)), interactions = load(interactions_);
+    // Lanes in other states have no interactions left.
+    const BoxReflections<Real> passed(Axis(at_x, from.x, light.direction.x),
+                                      Axis(at_y, from.y, light.direction.y),
+                                      Axis(at_z, from.z, light.direction.z),
+                                      {depth_left, attenuation, Real(pool_.most_time_ns) - time, time_per_mm,
+                                       where(here, Real(pool_.most_interactions) - interactions)});
+    const Real path = passed.path_mm;
+    store(position_, {passed.x.coordinate(at_x, position.x, centre.x, path),
+                      passed.y.coordinate(at_y, position.y, centre.y, path),
+                      passed.z.coordinate(at_z, position.z, centre.z, path)});
+    const auto turned = [&passed](const Real& component, const Axis& axis) {
+      return number_of(bits_of(component) ^ passed.turns(axis));
+    };
+    now.light = {{passed.x.direction(), passed.y.direction(), passed.z.direction()},
+                 {turned(light.polarisation.x, passed.x), turned(light.polarisation.y, passed.y),
+                  turned(light.polarisation.z, passed.z)}};
+    store(path_mm_, load(path_mm_) + path);
+    store(time_ns_, time + path * time_per_mm);
+    store(depth_left_, depth_left - attenuation * path);
+    store(interactions_, interactions + passed.count);
+    store(segments_, load(segments_) + passed.count);
+  }
+
   /// To the next plane, and through a total reflection there.
   void propagate(Now& now, const Mask& here) {
+    if (pool_.unfolds) pass_reflections(now, here);
     const Vector local = load(position_) - load(centre_);
     if (pool_.boxes) {
       const Vector& direction = now.light.direction;

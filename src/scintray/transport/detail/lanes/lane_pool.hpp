@@ -54,6 +54,7 @@ static_assert(sizeof(PlanePair) == 64);
 /// loaded at once.
 struct alignas(32) LaneBoxPlaces {
   double first_mm[4], second_mm[4];
+  double per_length[4];  ///< 1 / distance of the two, 1/mm
 };
 
 /// A surface table between two of its wavelengths.
@@ -127,12 +128,15 @@ static_assert(sizeof(LaneFace) == 192);
 /// A region: bounded by planes, or one in which photons cross gaps.
 struct LaneRegion {
   const PlanePair* planes = nullptr;   ///< where photons cross gaps any
-  const LaneBoxPlaces* box = nullptr;  ///< the same, where LanePool::boxes
+  const LaneBoxPlaces* box = nullptr;  ///< the same, where they are a box
   const LaneFace* faces = nullptr;     ///< two per PlanePair; where photons cross gaps those at gaps
   std::uint32_t count = 0;             ///< of planes
   std::uint32_t has_gaps = 0;          ///< 1: photons cross gaps
   std::uint32_t number = 0;            ///< scene::Scene::regions
   std::uint32_t medium = 0;            ///< place of its LaneMedium in LanePhoton::optics
+  std::uint32_t unfolds = 0;           ///< 1: as scene::Region::unfolds
+  std::uint32_t mirrors = 0;  ///< where it unfolds: place of two records there, of LaneFaceOptics::least_sin2
+                              ///< of the six faces in turn
 };
 
 /// A photon of the pool. Rows of four numbers are loaded and stored at once.
@@ -164,6 +168,7 @@ struct LanePool {
   double most_interactions, most_time_ns;  ///< limits as of PropagationLimits
   bool boxes;                              ///< all regions bounded by planes are as scene::Boundary::is_box
   bool one_box;                            ///< and all alike
+  bool unfolds;                            ///< some region does
   bool has_gaps;                           ///< some region has
   bool has_neighbours;                     ///< some face has a region behind it
   bool one_wavelength;                     ///< all photons have it
