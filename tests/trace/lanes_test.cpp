@@ -54,6 +54,28 @@ surface = "polished"
          more;
 }
 
+/// Polished, in dry contact with one of the same medium, whose surface ends in a reflector.
+std::string beside_a_wrapped_one(const std::string& surface) {
+  return R"(
+ambient = "vacuum"
+[[part]]
+name = "crystal"
+box = ["2 mm", "3 mm", "20 mm"]
+medium = "LSO_roncali2013"
+surface = ")" +
+         surface + R"("
+[[part]]
+name = "other"
+box = ["2 mm", "3 mm", "20 mm"]
+place = { touch = "crystal", side = "+x" }
+medium = "LSO_roncali2013"
+surface = "polished_lambertian_097"
+[[contact]]
+between = ["crystal", "other"]
+kind = "dry"
+)" + sensor_and_source("2 mm");
+}
+
 /// The crystal in a block of glass; its medium is birefringent, and the glass beside it is not.
 std::string birefringent_crystal(const std::string& surface) {
   return R"(
@@ -253,6 +275,16 @@ TEST_CASE("Results and photons are the same to the last bit for every width of t
   SUBCASE("facets, a gap and a reflector") { scene = crystal("backed", kBacked); }
   SUBCASE("paint, in part specular") { scene = crystal("paint", kPaint); }
   SUBCASE("polished, a gap and a Lambertian reflector") { scene = crystal("polished_lambertian_097"); }
+  SUBCASE("polished, a gap and a reflector, cut by interactions") {
+    scene = crystal("polished_lambertian_097", "[run]\nmax_interactions = 12\n");
+  }
+  SUBCASE("polished, a gap and a reflector, cut by time") {
+    scene = crystal("polished_lambertian_097", "[run]\nmax_time = \"0.3 ns\"\n");
+  }
+  SUBCASE("polished, in dry contact with a wrapped one") { scene = beside_a_wrapped_one("polished"); }
+  SUBCASE("rough, in dry contact with a wrapped one") {
+    scene = beside_a_wrapped_one("roncali2013_unified_rough");
+  }
   SUBCASE("unpolarised") { scene = crystal("roncali2013_unified_rough", "polarisation = \"unpolarised\"\n"); }
   SUBCASE("birefringent") { scene = birefringent_crystal("polished"); }
   SUBCASE("birefringent, facets") { scene = birefringent_crystal("roncali2013_unified_rough"); }
@@ -337,6 +369,9 @@ thin_film = { layers = [{ index = 1.38, thickness = "99.6 nm" }] }
   SUBCASE("cut by interactions") { scene = crystal("polished", "[run]\nmax_interactions = 20\n"); }
   SUBCASE("cut by time") { scene = crystal("polished", "[run]\nmax_time = \"0.3 ns\"\n"); }
   SUBCASE("array with the spectrum of its light") { scene = array(kEmission); }
+  SUBCASE("wrapped array with the spectrum of its light") {
+    scene = array(kEmission, "polished_lambertian_097");
+  }
   SUBCASE("rough array with the spectrum of its light") {
     scene = array(kEmission, "roncali2013_unified_rough");
   }

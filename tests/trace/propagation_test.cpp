@@ -13,18 +13,25 @@ using namespace scintray::test;
 
 namespace {
 
-/// A turned crystal and a cylinder beside it, polished, of a medium that scatters and absorbs; by planes
-/// where they apply or by Embree.
-std::string two_bodies(const std::string& accelerator, const std::string& turned) {
+/// What a scene of two_bodies() is made with: by planes where they apply or by Embree, the angle by which the
+/// crystal is turned, and its surface.
+struct Made {
+  std::string accelerator = "auto", turned = "40 deg", surface = "flat";
+};
+
+/// A crystal and a cylinder beside it, of a medium that scatters and absorbs, or another.
+std::string two_bodies(const Made& made, const std::string& medium = "lso") {
   return R"(
 ambient = "vacuum_n1"
 [[part]]
 name = "crystal"
 box = ["2 mm", "3 mm", "20 mm"]
 rotate = { axis = [1, 2, 3], angle = ")" +
-         turned + R"(" }
-medium = "lso"
-surface = "flat"
+         made.turned + R"(" }
+medium = ")" +
+         medium + R"("
+surface = ")" +
+         made.surface + R"("
 [[part]]
 name = "rod"
 cylinder = { radius = "2 mm", height = "12 mm", segments = 12 }
@@ -40,7 +47,14 @@ photons = 4_000
 [run]
 curved = "facets"
 accelerator = ")" +
-         accelerator + "\"\n";
+         made.accelerator + R"("
+[media.clear]
+index = 1.82
+[surfaces.wrapped]
+base = "flat"
+gap = "air"
+reflector = "ESR"
+)";
 }
 
 struct Journey {
@@ -62,8 +76,8 @@ Journey travel(const Scene& scene, const PhotonSource& source, std::uint64_t num
 }
 
 struct TwoBodies {
-  explicit TwoBodies(const std::string& accelerator, const std::string& turned = "40 deg")
-      : spec(scene_spec(two_bodies(accelerator, turned))),
+  explicit TwoBodies(const Made& made, const std::string& medium = "lso")
+      : spec(scene_spec(two_bodies(made, medium))),
         built(builder.build(spec)),
         source(spec.source, built.scene) {}
   SceneSpec spec;
@@ -72,12 +86,18 @@ struct TwoBodies {
   PhotonSource source;
 };
 
+/// By Embree, by planes, and in boxes in which total reflections are passed many at once.
+const Made kEveryWay[] = {
+    {"embree"}, {"auto"}, {"auto", "0 deg"}, {"auto", "0 deg", "wrapped"}, {"auto", "40 deg", "wrapped"}};
+
 }  // namespace
 
 TEST_CASE("Propagation through total reflections has the path of one that stops at each") {
-  for (const std::string accelerator : {"auto", "embree"}) {
-    CAPTURE(accelerator);
-    const TwoBodies scene(accelerator);
+  for (const Made& made : kEveryWay) {
+    CAPTURE(made.accelerator);
+    CAPTURE(made.turned);
+    CAPTURE(made.surface);
+    const TwoBodies scene(made);
     PropagationLimits far;
     far.interactions = 2'000;
     std::uint64_t passed = 0;
@@ -104,9 +124,11 @@ TEST_CASE("Propagation through total reflections has the path of one that stops 
 }
 
 TEST_CASE("Recording the reflections passed records all of them, and changes nothing") {
-  for (const std::string accelerator : {"auto", "embree"}) {
-    CAPTURE(accelerator);
-    const TwoBodies scene(accelerator);
+  for (const Made& made : kEveryWay) {
+    CAPTURE(made.accelerator);
+    CAPTURE(made.turned);
+    CAPTURE(made.surface);
+    const TwoBodies scene(made);
     PropagationLimits alone;
     alone.interactions = 2'000;
     for (std::uint64_t i = 0; i < scene.spec.source.photons / 4; ++i) {
@@ -151,7 +173,10 @@ TEST_CASE("Recording the reflections passed records all of them, and changes not
 }
 
 TEST_CASE("Propagation ends at the reflection that reaches a limit, and no sooner") {
-  const TwoBodies scene("embree");
+  Made made{"embree"};
+  SUBCASE("by Embree") {}
+  SUBCASE("many at once") { made = {"auto", "0 deg"}; }
+  const TwoBodies scene(made);
   std::uint64_t by_count = 0, by_time = 0;
   for (std::uint64_t i = 0; i < 1'000; ++i) {
     for (const bool count : {true, false}) {
@@ -177,8 +202,71 @@ TEST_CASE("Propagation ends at the reflection that reaches a limit, and no soone
   CHECK(by_time > 100);
 }
 
+TEST_CASE("Boxes that mostly reflect totally unfold, others do not") {
+  const auto crystal_unfolds = [](const Made& made) {
+    const TwoBodies scene(made);
+    for (const PartInfo& part : scene.built.scene.parts)
+      if (part.name == "crystal") return scene.built.scene.regions[part.region].unfolds;
+    return false;
+  };
+  CHECK(crystal_unfolds({"auto", "0 deg"}));
+  CHECK(crystal_unfolds({"auto", "40 deg"}));
+  CHECK(crystal_unfolds({"auto", "0 deg", "wrapped"}));
+  CHECK_FALSE(crystal_unfolds({"embree", "0 deg"}));
+  CHECK_FALSE(crystal_unfolds({"auto", "0 deg", "roncali2013_unified_rough"}));
+}
+
+TEST_CASE(
+    "Light along the faces, edges and axes of a box, and light without an end, is passed as one by one") {
+  const TwoBodies scene({"auto", "0 deg"}, "clear");
+  const Scene& built = scene.built.scene;
+  const double across = 1.0 / std::sqrt(2.0);
+  const Vec3 centre = built.regions[RegionId(1)].centre;
+  REQUIRE(built.regions[RegionId(1)].unfolds);
+  const Vec3 directions[] = {{across, 0.0, across}, {0.0, across, -across}, {across, across, 0.0},
+                             {0.6, 0.0, -0.8},      {0.0, -0.0, 1.0},       {-1.0, 0.0, 0.0},
+                             {0.48, 0.64, 0.6},     {-0.36, 0.48, 0.8},     {0.57735, -0.57735, 0.57735}};
+  const Vec3 starts[] = {
+      {0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {1.0, 1.5, 0.0}, {-1.0, -1.5, -10.0}, {0.3, -1.5, 10.0}};
+  PropagationLimits far;
+  far.interactions = 5'000;
+  std::uint64_t trapped = 0;
+  for (const Vec3& direction : directions)
+    for (const Vec3& start : starts) {
+      CAPTURE(direction.transpose());
+      CAPTURE(start.transpose());
+      const auto travelled = [&](const PropagationLimits& limits) {
+        Rng rng(3, StreamKind::photon, 1);
+        Photon photon = scene.source.emit(built, rng);
+        photon.region = RegionId(1);
+        photon.optics = built.optics.at(built.regions[photon.region].medium, photon.wavelength_nm);
+        photon.position = centre + start;
+        photon.ray.direction = direction.normalized();
+        photon.ray.polarisation = direction.unitOrthogonal();
+        std::uint64_t segments = 0;
+        do {
+          const Step taken = step(built, photon, rng, limits);
+          segments += taken.segments;
+          if (is_final(taken.event) || taken.event == StepEvent::transmitted) break;
+        } while (photon.interactions < far.interactions);
+        return std::pair(photon, segments);
+      };
+      const auto [one, segments] = travelled({});
+      const auto [many, in_all] = travelled(far);
+      CHECK(in_all == segments);
+      CHECK(many.interactions == one.interactions);
+      CHECK(many.path_mm == doctest::Approx(one.path_mm).epsilon(1e-10));
+      CHECK((many.position - one.position).norm() < 1e-9 * (1.0 + one.path_mm));
+      CHECK((many.ray.direction - one.ray.direction).norm() < 1e-10);
+      CHECK((many.ray.polarisation - one.ray.polarisation).norm() < 1e-10);
+      if (one.interactions == far.interactions) ++trapped;
+    }
+  CHECK(trapped > 10);
+  CHECK(trapped < 40);
+}
+
 TEST_CASE("A box is inside a region, or reaches into what bounds it") {
-  const TwoBodies straight("auto", "0 deg");
+  const TwoBodies straight({"auto", "0 deg"});
   const BuiltScene& built = straight.built;
   const auto region_of = [&](const std::string& name) {
     for (const PartInfo& part : built.scene.parts)
