@@ -16,11 +16,11 @@ namespace {
 /// What a scene of two_bodies() is made with: by planes where they apply or by Embree, the angle by which the
 /// crystal is turned, and its surface.
 struct Made {
-  std::string accelerator = "auto", turned = "40 deg", surface = "flat";
+  std::string accelerator = "auto", turned = "40 deg", surface = "flat", medium = "lso";
 };
 
 /// A crystal and a cylinder beside it, of a medium that scatters and absorbs, or another.
-std::string two_bodies(const Made& made, const std::string& medium = "lso") {
+std::string two_bodies(const Made& made) {
   return R"(
 ambient = "vacuum_n1"
 [[part]]
@@ -29,14 +29,15 @@ box = ["2 mm", "3 mm", "20 mm"]
 rotate = { axis = [1, 2, 3], angle = ")" +
          made.turned + R"(" }
 medium = ")" +
-         medium + R"("
+         made.medium + R"("
 surface = ")" +
          made.surface + R"("
 [[part]]
 name = "rod"
 cylinder = { radius = "2 mm", height = "12 mm", segments = 12 }
 translate = ["30 mm", "0 mm", "0 mm"]
-medium = "lso"
+medium = ")" +
+         made.medium + R"("
 surface = "flat"
 [source]
 type = "photons"
@@ -49,7 +50,9 @@ curved = "facets"
 accelerator = ")" +
          made.accelerator + R"("
 [media.clear]
-index = 1.82
+index = { n = 1.82 }
+absorption = { none = true }
+scattering = { none = true }
 [surfaces.wrapped]
 base = "flat"
 gap = "air"
@@ -76,10 +79,8 @@ Journey travel(const Scene& scene, const PhotonSource& source, std::uint64_t num
 }
 
 struct TwoBodies {
-  explicit TwoBodies(const Made& made, const std::string& medium = "lso")
-      : spec(scene_spec(two_bodies(made, medium))),
-        built(builder.build(spec)),
-        source(spec.source, built.scene) {}
+  explicit TwoBodies(const Made& made)
+      : spec(scene_spec(two_bodies(made))), built(builder.build(spec)), source(spec.source, built.scene) {}
   SceneSpec spec;
   SceneBuilder builder;
   BuiltScene built;
@@ -218,7 +219,7 @@ TEST_CASE("Boxes that mostly reflect totally unfold, others do not") {
 
 TEST_CASE(
     "Light along the faces, edges and axes of a box, and light without an end, is passed as one by one") {
-  const TwoBodies scene({"auto", "0 deg"}, "clear");
+  const TwoBodies scene({"auto", "0 deg", "flat", "clear"});
   const Scene& built = scene.built.scene;
   const double across = 1.0 / std::sqrt(2.0);
   const Vec3 centre = built.regions[RegionId(1)].centre;

@@ -66,18 +66,36 @@ std::uint32_t pair_opposite(std::vector<BoundingPlane>& planes) {
   return static_cast<std::uint32_t>(paired - planes.begin());
 }
 
-/// Brings the planes of a box along the axes into the order of Boundary::is_box; false for any others.
-bool order_as_box(std::vector<BoundingPlane>& planes) {
+/// Brings the planes of a box along the axes into the order of Boundary::is_box; false for any others. A part
+/// that was turned and is turned back here is a box but for rounding, which its planes then leave out.
+/// @param on  triangles on each plane
+bool order_as_box(const Boundary& boundary, const std::vector<std::vector<std::uint32_t>>& on,
+                  std::vector<BoundingPlane>& planes) {
   if (planes.size() != 6) return false;
+  const double tolerance = kCoplanar * boundary.size_mm;
   std::vector<BoundingPlane> ordered;
   for (const core::PlainVec3 axis :
        {core::PlainVec3(1, 0, 0), core::PlainVec3(0, 1, 0), core::PlainVec3(0, 0, 1)})
     for (const double sign : {1.0, -1.0}) {
       const core::PlainVec3 normal(sign * axis.x(), sign * axis.y(), sign * axis.z());
-      const auto found = std::find_if(planes.begin(), planes.end(),
-                                      [&](const BoundingPlane& plane) { return plane.normal == normal; });
+      const auto offset_of = [&](const BoundingPlane& plane) {
+        return normal.dot(boundary.triangle(plane.first)[0]);
+      };
+      const auto is_across = [&](std::uint32_t triangle, double offset) {
+        const BoundaryTriangle corners = boundary.triangle(triangle);
+        return std::all_of(corners.begin(), corners.end(), [&](const core::Vec3& v) {
+          return std::abs(normal.dot(v) - offset) <= tolerance;
+        });
+      };
+      const auto found = std::find_if(planes.begin(), planes.end(), [&](const BoundingPlane& plane) {
+        const std::vector<std::uint32_t>& those = on[static_cast<std::size_t>(&plane - planes.data())];
+        return plane.normal.dot(normal) > 0.5 &&
+               std::all_of(those.begin(), those.end(),
+                           [&](std::uint32_t triangle) { return is_across(triangle, offset_of(plane)); });
+      });
       if (found == planes.end()) return false;
       ordered.push_back(*found);
+      ordered.back().offset = offset_of(*found);
       // Without negative zeros.
       ordered.back().normal = core::PlainVec3(normal.x() + 0.0, normal.y() + 0.0, normal.z() + 0.0);
     }
@@ -121,7 +139,7 @@ bool find_planes(const std::vector<std::uint32_t>& labels, Boundary& boundary) {
     plane_triangles.insert(plane_triangles.end(), on[i].begin(), on[i].end());
     plane.triangles_end = static_cast<std::uint32_t>(plane_triangles.size());
   }
-  boundary.is_box = order_as_box(planes);
+  boundary.is_box = order_as_box(boundary, on, planes);
   boundary.opposite_planes = boundary.is_box ? 6 : pair_opposite(planes);
   boundary.planes = std::move(planes);
   boundary.plane_triangles = std::move(plane_triangles);
