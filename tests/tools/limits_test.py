@@ -85,7 +85,7 @@ class Limits(unittest.TestCase):
 
     def test_kernels_are_the_functions_in_lanes(self):
         for name in ('scintray::transport::(anonymous namespace)::LanePasses<scintray::transport::LaneRealPair<xsimd::avx2> >::run()',
-                     'scintray::transport::(anonymous namespace)::LaneBoxSet<scintray::core::LaneReal<xsimd::avx2> >::last_pass()',
+                     'scintray::transport::(anonymous namespace)::LanesInBox<scintray::core::LaneReal<xsimd::avx2> >::pass(scintray::transport::LaneWork* const (&) [4]) const',
                      'scintray::transport::propagate_lanes_4(scintray::transport::LanePlanes const&)',
                      'scintray::transport::refract_lanes_8(scintray::transport::LaneNormal const*)',
                      'scintray::transport::propagate_lanes_in_body_8(scintray::transport::LaneBody const&)'):

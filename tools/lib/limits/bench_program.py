@@ -15,7 +15,7 @@ TRACE = re.compile(r' T (scintray::bench::Workload::trace\(.*\) const)$', re.MUL
 CALLGRIND = ['valgrind', '--tool=callgrind', '--cache-sim=yes', '--branch-sim=yes']
 FIRST_COUNTED = 2  # file of the first trace that is compared: those before it fill caches
 # Functions of the kernels that propagate photons in lanes.
-KERNEL = re.compile(r'\bLane(?:Passes|Photons|Propagation|BoxSet)<|\b(?:propagate|refract|run)_lanes_(?:in_body_)?\d')
+KERNEL = re.compile(r'\bLane(?:Passes|Photons|Propagation|sInBox)<|\b(?:propagate|refract|run)_lanes_(?:in_body_)?\d')
 # What an instruction in a kernel does, by the source file of its line; all else is done for one lane after another.
 VECTORS, SINGLE = 'vectors', 'one lane'
 IN_VECTORS = re.compile(r'intrin\.h$|/xsimd/|/lane_number\.hpp$')

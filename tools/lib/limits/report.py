@@ -39,13 +39,11 @@ def number(value, digits=0):
 
 
 def bounds(figures, clock):
-    """ns a segment: what dispatch, four instructions a cycle, loads, wrong predictions and the chain take by themselves."""
+    """ns a segment: what dispatch, four instructions a cycle, loads and wrong predictions take by themselves."""
     whole = figures.counts.whole
-    lanes = COUNTED_LANES * rows.VECTORS_IN_TURNS
-    chained = sum(cycles for _, cycles in rows.chain()) / lanes if figures.row.chained else None
     cycles = [whole.instructions / rows.DISPATCHED, whole.instructions / 4, whole.loads / rows.LOADED,
-              whole.mispredicted * rows.MISPREDICTED, chained]
-    return [None if count is None else count / clock for count in cycles]
+              whole.mispredicted * rows.MISPREDICTED]
+    return [count / clock for count in cycles]
 
 
 def table_of_counts(measured):
@@ -100,7 +98,7 @@ def table_of_times(measured, clock):
                       *(number(bound, 1) for bound in bounds(figures, clock))])
     return table(['scene', *(f'ns, {width} lanes' for width in lanes), 'instructions a ns', 'a cycle',
                   f'ns at {rows.DISPATCHED} instructions a cycle', 'at 4', f'ns at {rows.LOADED} loads a cycle',
-                  'ns of wrong predictions', 'ns of the chain'], lines)
+                  'ns of wrong predictions'], lines)
 
 
 def required_nanoseconds(figures, lanes=COUNTED_LANES):
@@ -157,11 +155,8 @@ def table_of_factors(measured):
 
 def text_of(measured, machine, version):
     clock = machine['cycles_per_ns']
-    parts = [f'{version}, {machine["cpu"]}, {clock:.2f} cycles a ns. All a segment, one thread; counts and rates of '
-             f'{COUNTED_LANES} lanes.\n',
-             table_of_counts(measured), table_of_kernels(measured), table_of_times(measured, clock),
-             table_of_factors(measured)]
-    if any(figures.row.chained for figures in measured):
-        parts.append(f'The chain, cycles of a vector, of which {rows.VECTORS_IN_TURNS} take turns: ' +
-                     ', '.join(f'{what} {cycles}' for what, cycles in rows.chain()) + '.\n')
-    return '\n'.join(parts)
+    return '\n'.join([
+        f'{version}, {machine["cpu"]}, {clock:.2f} cycles a ns. All a segment, one thread; counts and rates of '
+        f'{COUNTED_LANES} lanes.\n',
+        table_of_counts(measured), table_of_kernels(measured), table_of_times(measured, clock),
+        table_of_factors(measured)])

@@ -15,11 +15,10 @@ class Row:
     factor: float
     work: int
     of: str = ''
-    chained: bool = False  # each segment waits for the one before, in the kernel for total reflections
 
 
 ROWS = [
-    Row('polished', 4.0, 4096, chained=True),
+    Row('polished', 4.0, 4096),
     Row('unified', 4.0, 16384),
     Row('table', 4.0, 16384),
     Row('painted', 3.0, 4096),
@@ -35,20 +34,3 @@ ROWS = [
 # Software Optimization Guide 57647: macro-ops dispatched and floating-point loads in a cycle, cycles that a wrong
 # prediction commonly costs. Assumed: that an instruction is one macro-op.
 DISPATCHED, LOADED, MISPREDICTED = 6, 2, 13
-
-# The longest chain from one segment's end to the next one's, in the kernel for total reflections in a box
-# (lane_box_set.hpp), with the cycles of its instructions by the same source; comparisons are those of minima and
-# maxima, too. Two vectors take turns, so that a processor works on two such chains at a time.
-ADD, MULTIPLY, COMPARE, BLEND, STORE, LOAD = 3, 3, 2, 1, 1, 8
-VECTORS_IN_TURNS = 2
-
-
-def chain():
-    """(what, cycles) of the chain, for all lanes of a vector together."""
-    return [('the position out of memory', LOAD),
-            ('its distance from the faces across an axis', 2 * ADD),
-            ('that of the face ahead', BLEND + COMPARE),
-            ('times the inverse cosine', MULTIPLY),
-            ('the least of three', 3 * COMPARE),
-            ('the next position', MULTIPLY + ADD),
-            ('into memory', STORE)]
