@@ -119,6 +119,7 @@ Boundary through_bytes(const Boundary& boundary) {
   copy.triangle_planes = through_bytes(boundary.triangle_planes);
   copy.planes = through_bytes(boundary.planes);
   copy.opposite_planes = boundary.opposite_planes;
+  copy.is_box = boundary.is_box;
   copy.plane_triangles = through_bytes(boundary.plane_triangles);
   copy.merged = {through_bytes(boundary.merged.corners), through_bytes(boundary.merged.stands_for)};
   copy.thin_gaps = {through_bytes(boundary.thin_gaps.gaps), through_bytes(boundary.thin_gaps.of_triangle)};
@@ -135,6 +136,7 @@ Scene through_bytes(const Scene& scene) {
   copy.links = through_bytes(scene.links);
   copy.twins = through_bytes(scene.twins);
   copy.interfaces = through_bytes(scene.interfaces);
+  copy.total_reflections = through_bytes(scene.total_reflections);
   copy.optics.media = through_bytes(scene.optics.media);
   copy.optics.table = through_bytes(scene.optics.table);
   copy.optics.shifting_per_mm = through_bytes(scene.optics.shifting_per_mm);

@@ -370,7 +370,13 @@ thin_film = { layers = [{ index = 1.38, thickness = "99.6 nm" }] }
   SUBCASE("cut by time") { scene = crystal("polished", "[run]\nmax_time = \"0.3 ns\"\n"); }
   SUBCASE("array with the spectrum of its light") { scene = array(kEmission); }
   SUBCASE("wrapped array with the spectrum of its light") {
-    scene = array(kEmission, "polished_lambertian_097");
+    scene = replaced(array(kEmission, "polished_lambertian_097"), "\n[[part]]\nname = \"turned\"", R"(
+[[array.element.face]]
+name = "exit"
+select = { normal = [0, 0, -1] }
+surface = "polished"
+[[part]]
+name = "turned")");
   }
   SUBCASE("rough array with the spectrum of its light") {
     scene = array(kEmission, "roncali2013_unified_rough");

@@ -162,6 +162,7 @@ struct TotalReflection {
   core::SurfaceId gap_of;  ///< or its gap is
   bool operator==(const TotalReflection&) const = default;
 };
+static_assert(std::is_trivially_copyable_v<TotalReflection>);
 
 /// How photons in a region are traced in the lanes of vector registers, where that is faster.
 enum class LaneKind : std::uint8_t {
@@ -213,6 +214,8 @@ struct SceneRecords {
   std::vector<std::uint32_t>
       twins;  ///< likewise: the triangle in the boundary of the region on its other side
   core::IdVector<core::InterfaceId, Interface> interfaces;
+  /// For light that leaves the front and the back region of each interface; empty where no region unfolds.
+  std::vector<TotalReflection> total_reflections;
   SceneOptics optics;
 
   /// Links of the triangles of a region's boundary, in their order.
@@ -224,6 +227,9 @@ struct SceneRecords {
   core::RegionId behind(const BoundaryLink& link) const {
     const Interface& interface = interfaces[link.interface];
     return link.from_back ? interface.front : interface.back;
+  }
+  const TotalReflection& total_reflection(const BoundaryLink& link) const {
+    return total_reflections[2 * link.interface.index() + (link.from_back ? 1 : 0)];
   }
   std::uint32_t twin(const Region& region, std::uint32_t triangle) const {
     return twins[region.first_link + triangle];
@@ -276,12 +282,6 @@ struct Scene : SceneRecords {
   core::IdVector<core::SensorId, detector::Sensor> sensors;
   /// Distinct accelerators; regions of one shape share one. A copy of a scene shares them.
   core::IdVector<core::AcceleratorId, std::shared_ptr<const Accelerator>> accelerators;
-
-  /// For light that leaves the front and the back region of each interface; empty where no region unfolds.
-  std::vector<TotalReflection> total_reflections;
-  const TotalReflection& total_reflection(const BoundaryLink& link) const {
-    return total_reflections[2 * link.interface.index() + (link.from_back ? 1 : 0)];
-  }
 
   core::IdVector<core::RegionId, std::string> region_names;
   core::IdVector<core::PartId, PartInfo> parts;

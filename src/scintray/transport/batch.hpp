@@ -18,6 +18,7 @@ class LaneScene;
 /// scene::Region::lanes, where the width has them. No result depends on them.
 using scene::LaneKind;
 using LaneKinds = core::IdVector<core::RegionId, LaneKind>;
+/// @throws InternalError for another width
 LaneKinds lane_kinds(const scene::Scene& scene, int lane_width);
 
 /// A number of lanes, kernels for the regions of a scene, and what they need of the scene. Serves any number

@@ -9,7 +9,18 @@
 
 namespace scintray::transport {
 
+namespace {
+
+void require_width(int lane_width) {
+  const std::vector<int>& widths = core::lane_widths();
+  if (std::find(widths.begin(), widths.end(), lane_width) == widths.end())
+    throw core::InternalError("this processor has no lanes of width " + std::to_string(lane_width));
+}
+
+}  // namespace
+
 LaneKinds lane_kinds(const scene::Scene& scene, int lane_width) {
+  require_width(lane_width);
   const LaneKernels kernels = lane_kernels(lane_width);
   LaneKinds kinds;
   for (const scene::Region& region : scene.regions) {
@@ -22,9 +33,7 @@ LaneKinds lane_kinds(const scene::Scene& scene, int lane_width) {
 
 LanePlan::LanePlan(const scene::Scene& scene, int lane_width, LaneKinds kinds)
     : width_(lane_width), kinds_(std::move(kinds)), scene_(std::make_unique<const LaneScene>(scene, kinds_)) {
-  const std::vector<int>& widths = core::lane_widths();
-  if (std::find(widths.begin(), widths.end(), lane_width) == widths.end())
-    throw core::InternalError("this processor has no lanes of width " + std::to_string(lane_width));
+  require_width(lane_width);
 }
 
 LanePlan::~LanePlan() = default;
