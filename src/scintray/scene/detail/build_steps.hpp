@@ -40,4 +40,14 @@ void check_definitions(const scene_file::SceneSpec& spec, const materials::Mater
 void check_sensors(const scene_file::SceneSpec& spec, const std::vector<contact::PlacedMesh>& placed,
                    const Scene& scene, core::Problems& problems, std::vector<std::string>& warnings);
 
+/// Sets Region::lanes and Region::unfolds of all regions, and SceneRecords::total_reflections, which requires
+/// all else of the scene.
+///
+/// Lanes are for regions that are not rotated and not of a birefringent medium, bounded by planes or one
+/// convex body, or with thin gaps: where most of the boundary is smooth and light is often totally reflected,
+/// and, except in bodies, where most of it has surfaces for lanes (lane_surface_at.hpp), as long as most of
+/// the light there stays in lanes. Boxes unfold, turned ones as well, in which more than half of diffuse
+/// light is totally reflected.
+void set_lane_kinds(Scene& scene);
+
 }  // namespace scintray::scene

@@ -2,7 +2,7 @@
 #include <optional>
 #include <vector>
 
-#include "scintray/scene/detail/lane_kinds.hpp"
+#include "scintray/scene/detail/build_steps.hpp"
 #include "scintray/scene/lane_surface_at.hpp"
 #include "scintray/scene/total_reflection.hpp"
 

@@ -1,5 +1,5 @@
 #include "scintray/scene/accelerator.hpp"
-#include "scintray/scene/detail/lane_kinds.hpp"
+#include "scintray/scene/detail/build_steps.hpp"
 #include "scintray/scene/detail/round_parts.hpp"
 
 #include <algorithm>

@@ -10,6 +10,7 @@
 
 #include <limits>
 
+#include "scintray/optics/fresnel_laws.hpp"
 #include "scintray/transport/detail/propagation_laws.hpp"
 
 namespace scintray::transport {
@@ -105,29 +106,61 @@ class BoxAxis {
 /// reflect it totally, reaches its event in the medium, or one of the limits: all of them but for one or few,
 /// which are treated one by one, as what follows is.
 template <typename Real>
-struct BoxReflections {
-  BoxAxis<Real> x, y, z;
+class BoxReflections {
+  using Axis = BoxAxis<Real>;
+  using Light = optics::LightRay<Real>;
+  using Vector = core::Triple<Real>;
+
+ public:
   Real path_mm;  ///< to the last of them; 0 without any
   Real count;
 
-  BoxReflections(const BoxAxis<Real>& along_x, const BoxAxis<Real>& along_y, const BoxAxis<Real>& along_z,
+  /// @param faces  across x, y and z
+  /// @param from   place of the photon in the region's frame, mm
+  /// @param light  in the directions of that frame
+  BoxReflections(const typename Axis::Faces (&faces)[3], const Vector& from, const Light& light,
                  const BoxFlight<Real>& flight)
-      : x(along_x), y(along_y), z(along_z) {
+      : faces_(faces),
+        x_(faces[0], from.x, light.direction.x),
+        y_(faces[1], from.y, light.direction.y),
+        z_(faces[2], from.z, light.direction.z),
+        polarisation_(light.polarisation) {
     // Rounding, which is some 1e-16 of the path, must not take the photon past its end.
     constexpr double kBefore = 1.0 - 0x1.0p-40;
     // As many more as there are axes may be within a path.
-    const Real most_mm = (flight.interactions_left - Real(4.0)) / (x.per_mm() + y.per_mm() + z.per_mm());
+    const Real most_mm = (flight.interactions_left - Real(4.0)) / (x_.per_mm() + y_.per_mm() + z_.per_mm());
     Real end = least(flight.depth_left / flight.attenuation_per_mm, most_mm);
     end = least(flight.time_left_ns / flight.time_ns_per_mm, end);
-    end = least(x.end_mm(), least(y.end_mm(), least(z.end_mm(), end)));
+    end = least(x_.end_mm(), least(y_.end_mm(), least(z_.end_mm(), end)));
     const Real path = Real(kBefore) * end;
-    path_mm = greatest(x.pass(path), greatest(y.pass(path), z.pass(path)));
-    count = x.count() + y.count() + z.count();
+    path_mm = greatest(x_.pass(path), greatest(y_.pass(path), z_.pass(path)));
+    count = x_.count() + y_.count() + z_.count();
   }
-  /// Sign bits of the polarisation's components: each reflection changes those along the face.
-  core::BitsOf<Real> turns(const BoxAxis<Real>& axis) const {
-    return axis.sign() ^ (core::whole_bits_of<Real>(count) << 63);
+
+  /// Place after the last of them.
+  /// @param at      place before, mm
+  /// @param centre  of the region's frame, in that of `at`
+  Vector position(const Vector& at, const Vector& centre) const {
+    return {x_.coordinate(faces_[0], at.x, centre.x, path_mm),
+            y_.coordinate(faces_[1], at.y, centre.y, path_mm),
+            z_.coordinate(faces_[2], at.z, centre.z, path_mm)};
   }
+  /// Each reflection changes the signs of those components of the polarisation that are along the face.
+  Light light() const {
+    const core::BitsOf<Real> all = core::whole_bits_of<Real>(count) << 63;
+    const auto turned = [&all](const Real& component, const Axis& axis) {
+      return number_of(bits_of(component) ^ axis.sign() ^ all);
+    };
+    return {{x_.direction(), y_.direction(), z_.direction()},
+            {turned(polarisation_.x, x_), turned(polarisation_.y, y_), turned(polarisation_.z, z_)}};
+  }
+  /// 1 / magnitudes of the components of the direction.
+  Vector per_speed() const { return {x_.per_speed(), y_.per_speed(), z_.per_speed()}; }
+
+ private:
+  const typename Axis::Faces (&faces_)[3];
+  Axis x_, y_, z_;
+  Vector polarisation_;
 };
 
 }  // namespace scintray::transport

@@ -122,35 +122,26 @@ class UnfoldedPropagation : public StoredPropagation {
   /// Passes total reflections up to shortly before the next other event. @return their number
   std::uint32_t pass_reflections(const PropagationLimits& limits) {
     const core::Vec3 from = region_.point_to_local(photon_.position);
-    const core::Vec3 direction = region_.direction_to_local(photon_.ray.direction);
     const double time_per_mm = time_along(1.0, photon_.optics.group_index);
     const BoxReflections<double> passed(
-        {faces_[0], from.x(), direction.x()}, {faces_[1], from.y(), direction.y()},
-        {faces_[2], from.z(), direction.z()},
+        faces_, triple(from),
+        {triple(region_.direction_to_local(photon_.ray.direction)),
+         triple(region_.direction_to_local(photon_.ray.polarisation))},
         {photon_.optical_depth, attenuation_per_mm_, limits.time_ns - photon_.time_ns, time_per_mm,
          static_cast<double>(limits.interactions) - static_cast<double>(photon_.interactions)});
     const auto count = static_cast<std::uint32_t>(passed.count);
     if (count == 0) return 0;
     if (limits.passed) [[unlikely]]
       show(count, limits);
-    const double path_mm = passed.path_mm;
     // Without a rotation from the world's own coordinates, as the lanes do.
-    const core::Vec3 at = region_.rotated ? from : photon_.position.vec();
-    const core::Vec3 centre = region_.rotated ? core::Vec3(core::Vec3::Zero()) : region_.centre.vec();
-    const core::Vec3 there(passed.x.coordinate(faces_[0], at.x(), centre.x(), path_mm),
-                           passed.y.coordinate(faces_[1], at.y(), centre.y(), path_mm),
-                           passed.z.coordinate(faces_[2], at.z(), centre.z(), path_mm));
     photon_.position =
-        region_.rotated ? core::Vec3(region_.centre + region_.direction_to_world(there)) : there;
-    photon_.ray.direction = region_.direction_to_world(
-        core::Vec3(passed.x.direction(), passed.y.direction(), passed.z.direction()));
-    const core::Vec3 polarisation = region_.direction_to_local(photon_.ray.polarisation);
-    const auto turned = [&passed](double component, const BoxAxis<double>& axis) {
-      return core::number_of(core::bits_of(component) ^ passed.turns(axis));
-    };
-    photon_.ray.polarisation = region_.direction_to_world(core::Vec3(turned(polarisation.x(), passed.x),
-                                                                     turned(polarisation.y(), passed.y),
-                                                                     turned(polarisation.z(), passed.z)));
+        region_.rotated
+            ? core::Vec3(region_.centre + region_.direction_to_world(vec(passed.position(triple(from), {}))))
+            : vec(passed.position(triple(photon_.position), triple(region_.centre)));
+    const optics::LightRay<double> light = passed.light();
+    photon_.ray.direction = region_.direction_to_world(vec(light.direction));
+    photon_.ray.polarisation = region_.direction_to_world(vec(light.polarisation));
+    const double path_mm = passed.path_mm;
     photon_.path_mm += path_mm;
     photon_.time_ns += path_mm * time_per_mm;
     photon_.optical_depth -= attenuation_per_mm_ * path_mm;
@@ -159,6 +150,9 @@ class UnfoldedPropagation : public StoredPropagation {
   }
 
  private:
+  static core::Triple<double> triple(const core::PlainVec3& v) { return {v.x(), v.y(), v.z()}; }
+  static core::Vec3 vec(const core::Triple<double>& v) { return {v.x, v.y, v.z}; }
+
   double least_sin2(const scene::BoundingPlane& plane) {
     const bool leads_to_several = plane.triangles_begin != plane.triangles_end;
     const scene::TotalReflection at = leads_to_several

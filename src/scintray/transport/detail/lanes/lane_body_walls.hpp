@@ -141,10 +141,9 @@ template <typename Real>
                                                      LaneWork* const* photons, std::size_t count) {
   using mesh::QuadricShape;
   if (body.cylinders)
-    LanePropagation<LaneSet<LaneBodyWalls<Real, QuadricShape::cylinder>>, 1>::run(body, limits, photons,
-                                                                                  count);
+    LanePropagation<LaneSet<LaneBodyWalls<Real, QuadricShape::cylinder>>>::run(body, limits, photons, count);
   else
-    LanePropagation<LaneSet<LaneBodyWalls<Real, QuadricShape::any>>, 1>::run(body, limits, photons, count);
+    LanePropagation<LaneSet<LaneBodyWalls<Real, QuadricShape::any>>>::run(body, limits, photons, count);
 }
 
 }  // namespace

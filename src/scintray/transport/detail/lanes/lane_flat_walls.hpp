@@ -103,8 +103,8 @@ template <typename Real>
                                                             LaneWork* const* photons, std::size_t count) {
   if constexpr (Real::kWidth >= 8)
     if (planes.count <= kFewPlanes)
-      return LanePropagation<LaneSet<LaneFlatWalls<Real, true>>, 1>::run(planes, limits, photons, count);
-  LanePropagation<LaneSet<LaneFlatWalls<Real, false>>, 1>::run(planes, limits, photons, count);
+      return LanePropagation<LaneSet<LaneFlatWalls<Real, true>>>::run(planes, limits, photons, count);
+  LanePropagation<LaneSet<LaneFlatWalls<Real, false>>>::run(planes, limits, photons, count);
 }
 
 }  // namespace

@@ -45,31 +45,22 @@ class LanesInBox {
                e = row(offsetof(LaneWork, polarisation)), numbers = row(offsetof(LaneWork, group_index)),
                c = row(offsetof(LaneWork, centre));
     const Real time_per_mm = time_along(Real(1.0), numbers.of[0]), attenuation = numbers.of[1];
-    const Vector centre{c.of[0], c.of[1], c.of[2]};
-    using Axis = BoxAxis<Real>;
-    using Faces = typename Axis::Faces;
-    const Faces at_x{box_.offset_mm[0], box_.offset_mm[1], per_length_[0], of_xy.of[0], of_xy.of[1]};
-    const Faces at_y{box_.offset_mm[2], box_.offset_mm[3], per_length_[1], of_xy.of[2], of_xy.of[3]};
-    const Faces at_z{box_.offset_mm[4], box_.offset_mm[5], per_length_[2], of_z.of[2], of_z.of[3]};
-    const BoxReflections<Real> passed(Axis(at_x, p.of[0] - centre.x, d.of[0]),
-                                      Axis(at_y, p.of[1] - centre.y, d.of[1]),
-                                      Axis(at_z, p.of[2] - centre.z, d.of[2]),
+    const Vector centre{c.of[0], c.of[1], c.of[2]}, at{p.of[0], p.of[1], p.of[2]};
+    using Faces = typename BoxAxis<Real>::Faces;
+    const Faces faces[3] = {{box_.offset_mm[0], box_.offset_mm[1], per_length_[0], of_xy.of[0], of_xy.of[1]},
+                            {box_.offset_mm[2], box_.offset_mm[3], per_length_[1], of_xy.of[2], of_xy.of[3]},
+                            {box_.offset_mm[4], box_.offset_mm[5], per_length_[2], of_z.of[2], of_z.of[3]}};
+    const BoxReflections<Real> passed(faces, at - centre,
+                                      {{d.of[0], d.of[1], d.of[2]}, {e.of[0], e.of[1], e.of[2]}},
                                       {e.of[3], attenuation, Real(limits_.time_ns) - d.of[3], time_per_mm,
                                        Real(limits_.interactions) - numbers.of[2]});
-    const Vector position{passed.x.coordinate(at_x, p.of[0], centre.x, passed.path_mm),
-                          passed.y.coordinate(at_y, p.of[1], centre.y, passed.path_mm),
-                          passed.z.coordinate(at_z, p.of[2], centre.z, passed.path_mm)};
-    const Vector direction{passed.x.direction(), passed.y.direction(), passed.z.direction()};
-    const auto turned = [&passed](const Real& component, const Axis& axis) {
-      return number_of(bits_of(component) ^ passed.turns(axis));
-    };
-    const Vector polarisation{turned(e.of[0], passed.x), turned(e.of[1], passed.y),
-                              turned(e.of[2], passed.z)};
+    const Vector position = passed.position(at, centre);
+    const optics::LightRay<Real> light = passed.light();
+    const Vector direction = light.direction, polarisation = light.polarisation;
     const Real path = p.of[3] + passed.path_mm, time = d.of[3] + passed.path_mm * time_per_mm,
                depth_left = e.of[3] - attenuation * passed.path_mm;
 
-    const LaneBoxAhead<Real> ahead(box_, position - centre, direction,
-                                   {passed.x.per_speed(), passed.y.per_speed(), passed.z.per_speed()});
+    const LaneBoxAhead<Real> ahead(box_, position - centre, direction, passed.per_speed());
     const Real distance = ahead.distance_mm, depth = attenuation * distance;
     const Real along = ahead.along(direction), cosine = magnitude(along);
     const Real sin2 = ahead.of_face(select_by_sign(direction.x, of_xy.of[0], of_xy.of[1]),

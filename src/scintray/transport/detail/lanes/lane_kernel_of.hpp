@@ -2,7 +2,6 @@
 /// The kernel of lane_kernel.hpp for one instruction set. Included by one file for each.
 
 #include <limits>
-#include <utility>
 
 #include "scintray/optics/fresnel_laws.hpp"
 #include "scintray/transport/detail/lanes/lane_kernel.hpp"
@@ -202,52 +201,37 @@ class LaneSet : public LaneSlots<typename Walls::Number> {
   typename Slots::Numbers3 polarisation_;
 };
 
-/// Propagates photons in several sets of lanes in turns, so that a processor works on one of them while it
-/// waits for another. A lane whose photon has ended is filled with the next one at once.
+/// Propagates photons in lanes. One whose photon has ended is filled with the next one at once.
 ///
-/// @tparam Set  LaneSet or LaneBoxSet
-template <typename Set, int kSets>
+/// @tparam Set  LaneSet
+template <typename Set>
 class LanePropagation {
-  struct Sets {
-    Set of[kSets];
-  };
-  template <std::size_t... kIndices>
-  [[gnu::always_inline]] static Sets sets(const typename Set::Region& region, const LaneLimits& limits,
-                                          const LaneWork& any, std::index_sequence<kIndices...>) {
-    return {{(static_cast<void>(kIndices), Set(region, limits, any))...}};
-  }
   /// Photons in fewer lanes than this are handed back unfinished when there is no other to fill lanes with.
-  static constexpr int kFew = static_cast<int>(Set::kWidth) * kSets / 2;
+  static constexpr int kFew = static_cast<int>(Set::kWidth) / 2;
 
  public:
   [[gnu::flatten]] static void run(const typename Set::Region& region, const LaneLimits& limits,
                                    LaneWork* const* photons, std::size_t count) {
-    Sets lanes = sets(region, limits, **photons, std::make_index_sequence<kSets>());
+    Set lanes(region, limits, **photons);
     LaneWork *const *next = photons, *const *const last = photons + count;
     int busy = 0;
-    for (std::size_t lane = 0; lane < Set::kWidth; ++lane)
-      for (Set& set : lanes.of) {
-        if (next == last) break;
-        set.fill(lane, **next++);
-        ++busy;
-      }
+    for (std::size_t lane = 0; lane < Set::kWidth && next != last; ++lane) {
+      lanes.fill(lane, **next++);
+      ++busy;
+    }
     const bool hands_back = static_cast<int>(count) > busy;
     while (busy != 0) {
-      for (Set& set : lanes.of) {
-        if (set.busy() == 0) continue;
-        for (unsigned ended = set.pass(); ended != 0; ended &= ended - 1) {
-          const auto lane = static_cast<std::size_t>(__builtin_ctz(ended));
-          set.give_back(lane, set.ending(lane));
-          if (next != last)
-            set.fill(lane, **next++);
-          else
-            --busy;
-        }
+      for (unsigned ended = lanes.pass(); ended != 0; ended &= ended - 1) {
+        const auto lane = static_cast<std::size_t>(__builtin_ctz(ended));
+        lanes.give_back(lane, lanes.ending(lane));
+        if (next != last)
+          lanes.fill(lane, **next++);
+        else
+          --busy;
       }
       if (hands_back && next == last && busy < kFew) {
-        for (Set& set : lanes.of)
-          while (set.busy() != 0)
-            set.give_back(static_cast<std::size_t>(__builtin_ctz(set.busy())), LaneEnd::unfinished);
+        while (lanes.busy() != 0)
+          lanes.give_back(static_cast<std::size_t>(__builtin_ctz(lanes.busy())), LaneEnd::unfinished);
         return;
       }
     }

@@ -7,8 +7,6 @@
 /// proportional to instructions, so the rejection sampling of facets is repeated on its own.
 
 #include "scintray/transport/detail/box_reflections.hpp"
-#include "scintray/transport/detail/lanes/lane_box.hpp"
-#include "scintray/transport/detail/lanes/lane_planes.hpp"
 #include "scintray/transport/detail/lanes/lane_surfaces.hpp"
 #include "scintray/transport/detail/propagation_laws.hpp"
 
@@ -19,6 +17,7 @@ template <typename Real, bool kOneWavelength>
 class LanePasses : LaneSurfaces<Real, kOneWavelength> {
   using Surfaces = LaneSurfaces<Real, kOneWavelength>;
   using Surfaces::attenuation_per_mm_;
+  using Surfaces::boxes;
   using Surfaces::centre_;
   using Surfaces::cos_before_;
   using Surfaces::depth_left_;
@@ -30,6 +29,7 @@ class LanePasses : LaneSurfaces<Real, kOneWavelength> {
   using Surfaces::kWidth;
   using Surfaces::load;
   using Surfaces::load_faces;
+  using Surfaces::nearest_plane;
   using Surfaces::number_of_lanes;
   using Surfaces::one_if;
   using Surfaces::one_of;
@@ -167,64 +167,14 @@ class LanePasses : LaneSurfaces<Real, kOneWavelength> {
     return some;
   }
 
-  LaneAhead<Real> nearest_plane(const Vector& local, const Vector& direction) const {
-    LaneAhead<Real> nearest;
-    const LaneRegion& one = photon_[0]->region;
-    std::uintptr_t others = 0;
-    for (std::size_t lane = 1; lane < kWidth; ++lane)
-      others |= reinterpret_cast<std::uintptr_t>(photon_[lane]->region.planes) ^
-                reinterpret_cast<std::uintptr_t>(one.planes);
-    if (others == 0) {
-      for (std::size_t i = 0; i < one.count; ++i) {
-        const PlanePair& planes = one.planes[i];
-        nearest.take({Real(planes.normal[0]), Real(planes.normal[1]), Real(planes.normal[2])},
-                     Real(planes.first_mm), Real(planes.second_mm), local, direction,
-                     2.0 * static_cast<double>(i));
-      }
-      return nearest;
-    }
-    std::size_t count = 0;
-    for (const LanePhoton* photon : photon_)
-      count = photon->region.count > count ? photon->region.count : count;
-    for (std::size_t i = 0; i < count; ++i) {
-      const double *first[kWidth], *second[kWidth];
-      for (std::size_t lane = 0; lane < kWidth; ++lane) {
-        const LaneRegion& region = photon_[lane]->region;  // the last planes again where there are fewer
-        const PlanePair& planes = region.planes[i < region.count ? i : region.count - 1];
-        first[lane] = planes.normal;
-        second[lane] = &planes.second_mm;
-      }
-      LaneFours<Real> of_first, of_second;
-      load_fours(first, of_first);
-      load_fours(second, of_second);
-      nearest.take({of_first.of[0], of_first.of[1], of_first.of[2]}, of_first.of[3], of_second.of[0], local,
-                   direction, 2.0 * static_cast<double>(i));
-    }
-    return nearest;
-  }
-
   /// A segment to a face.
   struct Hop {
     Mask known;  ///< its face is
     Real distance_mm, cosine;
   };
-  /// The boxes around photons in regions that are boxes.
-  LaneBox<Real> boxes() const {
-    if (pool_.one_box) {
-      const LaneBoxPlaces& box = *photon_[0]->region.box;
-      return {{Real(box.first_mm[0]), Real(box.second_mm[0]), Real(box.first_mm[1]), Real(box.second_mm[1]),
-               Real(box.first_mm[2]), Real(box.second_mm[2])}};
-    }
-    const double* places[kWidth];
-    for (std::size_t lane = 0; lane < kWidth; ++lane) places[lane] = photon_[lane]->region.box->first_mm;
-    const LaneFours<Real> first = row_of(places, 0), second = row_of(places, 1);
-    return {{first.of[0], second.of[0], first.of[1], second.of[1], first.of[2], second.of[2]}};
-  }
-
   /// Through total reflections in regions that unfold, as UnfoldedPropagation.
   void pass_reflections(Now& now, const Mask& here) {
-    using Axis = BoxAxis<Real>;
-    using Faces = typename Axis::Faces;
+    using Faces = typename BoxAxis<Real>::Faces;
     static constexpr LaneRecord kNever[2] = {
         {{kNoTotalReflection, kNoTotalReflection, kNoTotalReflection, kNoTotalReflection}},
         {{kNoTotalReflection, kNoTotalReflection, kNoTotalReflection, kNoTotalReflection}}};
@@ -240,32 +190,21 @@ class LanePasses : LaneSurfaces<Real, kOneWavelength> {
     const LaneFours<Real> sin2 = row_of(mirrors, 0), last_sin2 = row_of(mirrors, 1);
     const LaneFours<Real> first = row_of(places, 0), second = row_of(places, 1),
                           per_length = row_of(places, 2);
-    const Faces at_x{first.of[0], second.of[0], per_length.of[0], sin2.of[0], sin2.of[1]};
-    const Faces at_y{first.of[1], second.of[1], per_length.of[1], sin2.of[2], sin2.of[3]};
-    const Faces at_z{first.of[2], second.of[2], per_length.of[2], last_sin2.of[0], last_sin2.of[1]};
-    const Vector position = load(position_), centre = load(centre_), from = position - centre;
-    const Light light = now.light;
+    const Faces faces[3] = {{first.of[0], second.of[0], per_length.of[0], sin2.of[0], sin2.of[1]},
+                            {first.of[1], second.of[1], per_length.of[1], sin2.of[2], sin2.of[3]},
+                            {first.of[2], second.of[2], per_length.of[2], last_sin2.of[0], last_sin2.of[1]}};
+    const Vector position = load(position_), centre = load(centre_);
     const Real depth_left = load(depth_left_), attenuation = load(attenuation_per_mm_), time = load(time_ns_);
     const Real time_per_mm = time_along(Real(1.0), load(group_index_)), interactions = load(interactions_);
     // Lanes in other states have no interactions left.
-    const BoxReflections<Real> passed(Axis(at_x, from.x, light.direction.x),
-                                      Axis(at_y, from.y, light.direction.y),
-                                      Axis(at_z, from.z, light.direction.z),
+    const BoxReflections<Real> passed(faces, position - centre, now.light,
                                       {depth_left, attenuation, Real(pool_.most_time_ns) - time, time_per_mm,
                                        where(here, Real(pool_.most_interactions) - interactions)});
-    const Real path = passed.path_mm;
-    store(position_, {passed.x.coordinate(at_x, position.x, centre.x, path),
-                      passed.y.coordinate(at_y, position.y, centre.y, path),
-                      passed.z.coordinate(at_z, position.z, centre.z, path)});
-    const auto turned = [&passed](const Real& component, const Axis& axis) {
-      return number_of(bits_of(component) ^ passed.turns(axis));
-    };
-    now.light = {{passed.x.direction(), passed.y.direction(), passed.z.direction()},
-                 {turned(light.polarisation.x, passed.x), turned(light.polarisation.y, passed.y),
-                  turned(light.polarisation.z, passed.z)}};
-    store(path_mm_, load(path_mm_) + path);
-    store(time_ns_, time + path * time_per_mm);
-    store(depth_left_, depth_left - attenuation * path);
+    store(position_, passed.position(position, centre));
+    now.light = passed.light();
+    store(path_mm_, load(path_mm_) + passed.path_mm);
+    store(time_ns_, time + passed.path_mm * time_per_mm);
+    store(depth_left_, depth_left - attenuation * passed.path_mm);
     store(interactions_, interactions + passed.count);
     store(segments_, load(segments_) + passed.count);
   }

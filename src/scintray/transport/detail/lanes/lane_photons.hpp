@@ -1,10 +1,13 @@
 #pragma once
-/// The photons of the pool (lane_pool.hpp) that are in the lanes of one vector, their random numbers, and the
-/// faces that they are at: taken from the pool and put back by rows of four numbers.
+/// The photons of the pool (lane_pool.hpp) that are in the lanes of one vector, their random numbers, the
+/// planes around them and the faces that they are at: taken from the pool and put back by rows of four
+/// numbers.
 
 #include "scintray/core/lanes/lane_fours.hpp"
 #include "scintray/core/xoroshiro.hpp"
 #include "scintray/optics/fresnel_laws.hpp"
+#include "scintray/transport/detail/lanes/lane_box.hpp"
+#include "scintray/transport/detail/lanes/lane_planes.hpp"
 #include "scintray/transport/detail/lanes/lane_pool.hpp"
 
 namespace scintray::transport {
@@ -173,6 +176,57 @@ class LanePhotons {
   }
   static const LaneFace& face_of(const Now& now, std::size_t lane) {
     return *reinterpret_cast<const LaneFace*>(now.face[lane]);
+  }
+
+  /// The plane that each photon's ray leaves its region through.
+  /// @param local  its origin in the region's frame
+  LaneAhead<Real> nearest_plane(const Vector& local, const Vector& direction) const {
+    LaneAhead<Real> nearest;
+    const LaneRegion& one = photon_[0]->region;
+    std::uintptr_t others = 0;
+    for (std::size_t lane = 1; lane < kWidth; ++lane)
+      others |= reinterpret_cast<std::uintptr_t>(photon_[lane]->region.planes) ^
+                reinterpret_cast<std::uintptr_t>(one.planes);
+    if (others == 0) {
+      for (std::size_t i = 0; i < one.count; ++i) {
+        const PlanePair& planes = one.planes[i];
+        nearest.take({Real(planes.normal[0]), Real(planes.normal[1]), Real(planes.normal[2])},
+                     Real(planes.first_mm), Real(planes.second_mm), local, direction,
+                     2.0 * static_cast<double>(i));
+      }
+      return nearest;
+    }
+    std::size_t count = 0;
+    for (const LanePhoton* photon : photon_)
+      count = photon->region.count > count ? photon->region.count : count;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double *first[kWidth], *second[kWidth];
+      for (std::size_t lane = 0; lane < kWidth; ++lane) {
+        const LaneRegion& region = photon_[lane]->region;  // the last planes again where there are fewer
+        const PlanePair& planes = region.planes[i < region.count ? i : region.count - 1];
+        first[lane] = planes.normal;
+        second[lane] = &planes.second_mm;
+      }
+      LaneFours<Real> of_first, of_second;
+      load_fours(first, of_first);
+      load_fours(second, of_second);
+      nearest.take({of_first.of[0], of_first.of[1], of_first.of[2]}, of_first.of[3], of_second.of[0], local,
+                   direction, 2.0 * static_cast<double>(i));
+    }
+    return nearest;
+  }
+
+  /// The boxes around photons in regions that are boxes.
+  LaneBox<Real> boxes() const {
+    if (pool_.one_box) {
+      const LaneBoxPlaces& box = *photon_[0]->region.box;
+      return {{Real(box.first_mm[0]), Real(box.second_mm[0]), Real(box.first_mm[1]), Real(box.second_mm[1]),
+               Real(box.first_mm[2]), Real(box.second_mm[2])}};
+    }
+    const double* places[kWidth];
+    for (std::size_t lane = 0; lane < kWidth; ++lane) places[lane] = photon_[lane]->region.box->first_mm;
+    const LaneFours<Real> first = row_of(places, 0), second = row_of(places, 1);
+    return {{first.of[0], second.of[0], first.of[1], second.of[1], first.of[2], second.of[2]}};
   }
 
   LanePool& pool_;
