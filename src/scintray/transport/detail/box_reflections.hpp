@@ -47,7 +47,8 @@ class BoxAxis {
 
   /// @param from     coordinate of the photon in the region's frame, mm
   /// @param towards  component of its direction
-  BoxAxis(const Faces& faces, const Real& from, const Real& towards) : towards_(towards) {
+  BoxAxis(const Faces& faces, const Real& from, const Real& towards)
+      : towards_(towards), first_mm_(faces.first_mm), second_mm_(faces.second_mm) {
     const Real speed = magnitude(towards);
     per_speed_ = Real(1.0) / speed;
     const Mask ahead_is_second = towards < Real(0.0);
@@ -90,14 +91,14 @@ class BoxAxis {
   /// @param at         coordinate before, mm
   /// @param centre     of the region's frame, in that of `at`
   /// @param passed_mm  that path
-  Real coordinate(const Faces& faces, const Real& at, const Real& centre, const Real& passed_mm) const {
+  Real coordinate(const Real& at, const Real& centre, const Real& passed_mm) const {
     const Real ahead = direction();
-    const Real face = select(ahead < Real(0.0), faces.first_mm, -faces.second_mm);
+    const Real face = select(ahead < Real(0.0), first_mm_, -second_mm_);
     return select(some_, centre + face, at) + (passed_mm - last_mm_) * ahead;
   }
 
  private:
-  Real towards_, per_speed_, arrival_mm_, period_mm_, per_mm_, end_mm_;
+  Real towards_, first_mm_, second_mm_, per_speed_, arrival_mm_, period_mm_, per_mm_, end_mm_;
   Real count_, last_mm_;
   Mask some_;
 };
@@ -120,8 +121,7 @@ class BoxReflections {
   /// @param light  in the directions of that frame
   BoxReflections(const typename Axis::Faces (&faces)[3], const Vector& from, const Light& light,
                  const BoxFlight<Real>& flight)
-      : faces_(faces),
-        x_(faces[0], from.x, light.direction.x),
+      : x_(faces[0], from.x, light.direction.x),
         y_(faces[1], from.y, light.direction.y),
         z_(faces[2], from.z, light.direction.z),
         polarisation_(light.polarisation) {
@@ -141,9 +141,8 @@ class BoxReflections {
   /// @param at      place before, mm
   /// @param centre  of the region's frame, in that of `at`
   Vector position(const Vector& at, const Vector& centre) const {
-    return {x_.coordinate(faces_[0], at.x, centre.x, path_mm),
-            y_.coordinate(faces_[1], at.y, centre.y, path_mm),
-            z_.coordinate(faces_[2], at.z, centre.z, path_mm)};
+    return {x_.coordinate(at.x, centre.x, path_mm), y_.coordinate(at.y, centre.y, path_mm),
+            z_.coordinate(at.z, centre.z, path_mm)};
   }
   /// Each reflection changes the signs of those components of the polarisation that are along the face.
   Light light() const {
@@ -158,7 +157,6 @@ class BoxReflections {
   Vector per_speed() const { return {x_.per_speed(), y_.per_speed(), z_.per_speed()}; }
 
  private:
-  const typename Axis::Faces (&faces_)[3];
   Axis x_, y_, z_;
   Vector polarisation_;
 };
