@@ -78,8 +78,9 @@ TEST_CASE("The error of a rank is that of the run, with the number of the rank")
   CHECK(contains(
       message_of([&](int rank) { return simulation_of(rank == 2 ? scene + "[run]\nx = 1\n" : scene); }),
       "rank 2: "));
-  CHECK(contains(message_of([&](int rank) { return simulation_of(scene, rank == 1 ? 210'000 : 200'000); }),
-                 "rank 1 would compute another run: there are 210000 photons"));
+  CHECK(
+      contains(message_of([&](int rank) { return simulation_of(scene, rank == 1 ? 2'100'000 : 2'000'000); }),
+               "rank 1 would compute another run: there are 2100000 photons"));
   CHECK(message_of([&](int rank) -> Simulation {
           if (rank == 1) throw SystemError("the disk is gone");
           return simulation_of(scene);
