@@ -54,16 +54,9 @@ surface = "polished"
          more;
 }
 
-/// Polished, in dry contact with one of the same medium, whose surface ends in a reflector.
+/// The crystal in dry contact with one of the same medium, whose surface ends in a reflector.
 std::string beside_a_wrapped_one(const std::string& surface) {
-  return R"(
-ambient = "vacuum"
-[[part]]
-name = "crystal"
-box = ["2 mm", "3 mm", "20 mm"]
-medium = "LSO_roncali2013"
-surface = ")" +
-         surface + R"("
+  return crystal(surface, R"(
 [[part]]
 name = "other"
 box = ["2 mm", "3 mm", "20 mm"]
@@ -73,7 +66,7 @@ surface = "polished_lambertian_097"
 [[contact]]
 between = ["crystal", "other"]
 kind = "dry"
-)" + sensor_and_source("2 mm");
+)");
 }
 
 /// The crystal in a block of glass; its medium is birefringent, and the glass beside it is not.
