@@ -176,9 +176,9 @@ struct Region {
   core::MediumId medium;
   core::PartId part;  ///< none: the ambient space
   core::AcceleratorId accelerator;
-  std::uint32_t first_link = 0;  ///< of its triangles', in SceneRecords::links
-  bool rotated = false;          ///< `rotation` is not the identity
-  LaneKind lanes = LaneKind::none;
+  std::uint32_t first_link = 0;     ///< of its triangles', in SceneRecords::links
+  bool rotated = false;             ///< `rotation` is not the identity
+  LaneKind lanes = LaneKind::none;  ///< at a width that has kernels of its kind
   /// Its boundary is a box of which most reflects totally: total reflections in it are passed many at once
   /// (transport's box_reflections.hpp), in lanes and without.
   bool unfolds = false;

@@ -16,6 +16,8 @@ namespace {
 
 using Micro = optics::LaneSurface::Micro;
 
+static_assert(scene::kNeverTotal == kNoTotalReflection, "one number, where lanes include no scene");
+
 /// A triangle that is on none of the faces at gaps.
 constexpr std::uint32_t kNotAtGaps = std::numeric_limits<std::uint32_t>::max();
 
