@@ -2,6 +2,7 @@
 
 #include <muParser.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <sstream>
@@ -12,8 +13,8 @@ namespace scintray::exchange::gdml {
 
 namespace {
 
-/// Iterations of all loops of a file together.
-constexpr std::size_t kMostIterations = 200'000;
+/// Of all loops of a file together.
+constexpr double kMostSteps = 200'000;
 constexpr std::size_t kMostMatrixNumbers = 10'000'000;
 
 /// Geant4's units (Book For Application Developers, section "System of units"): mm, ns, MeV, rad and their
@@ -313,10 +314,14 @@ void Definitions::for_each_child(Node parent, const std::function<void(Node)>& a
     const double from = number(child, "from", 0.0), to = number(child, "to"),
                  step = number(child, "step", 1.0);
     if (!(step > 0.0)) file_.reject(child, "a loop whose step is not above 0", "give step=\"1\"");
-    for (double value = from; value <= to + 1e-9 * step; value += step) {
-      if (++loops_->iterations > kMostIterations)
-        file_.reject(child, "the loops of the file have over 200000 steps together",
-                     "check \"to\" and \"step\": 200000 volumes is the most that a scene of GDML places");
+    // Refused before the first step, of which each may take a moment. A last one within rounding of `to` is one.
+    const double steps = std::max(0.0, std::floor((to - from) / step + 1e-9) + 1.0);
+    loops_->steps += steps;
+    if (!(loops_->steps <= kMostSteps))
+      file_.reject(child, "the loops of the file have over 200000 steps together",
+                   "check \"to\" and \"step\": 200000 volumes is the most that a scene of GDML places");
+    for (double done = 0.0; done < steps; ++done) {
+      const double value = from + done * step;
       scopes_[document].evaluator->set(variable, value);
       loops_->variables[{document, variable}] = value;
       for_each_child(child, action);

@@ -88,7 +88,7 @@ class Definitions {
   /// Loops of all files together.
   struct Loops {
     LoopVariables variables;
-    std::size_t iterations = 0;
+    double steps = 0.0;
   };
 
   const GdmlFile& file_;
