@@ -48,12 +48,4 @@ inline void check_one_problem(const MarkedText& input, const std::vector<core::P
   CHECK(found[0].where.column == input.column);
 }
 
-/// `text` with the one occurrence of `old` replaced.
-inline std::string replaced(std::string text, const std::string& old, const std::string& by) {
-  const auto at = text.find(old);
-  REQUIRE_MESSAGE(at != std::string::npos, "not in the text: " << old);
-  REQUIRE_MESSAGE(text.find(old, at + 1) == std::string::npos, "twice in the text: " << old);
-  return text.replace(at, old.size(), by);
-}
-
 }  // namespace scintray::test

@@ -10,6 +10,7 @@
 #include "scintray/materials/surface_factory.hpp"
 #include "scintray/tables/bsdf_text.hpp"
 #include "support/agreement.hpp"
+#include "support/words.hpp"
 
 using namespace scintray;
 using namespace scintray::core;
@@ -74,12 +75,6 @@ std::filesystem::path bsdf_file(const std::string& name, const std::string& text
   static const auto folder = scratch_folder("zemax_bsdf");
   std::ofstream(folder / name, std::ios::binary) << text;
   return folder / name;
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const auto at = text.find(from);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, from.size(), to);
 }
 
 }  // namespace
