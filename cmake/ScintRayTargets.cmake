@@ -6,7 +6,7 @@
 # A module named in SCINTRAY_APART is compiled file by file all the same: for daily work on it.
 # NOT_TRACING: the module reads, writes and prints, and a release of it is compiled in less time, with -O1; where a
 # sanitizer is added, without optimisation.
-# PREPARING: the module makes what is traced; the same for a release, but optimised where a sanitizer is added.
+# PREPARING: the module prepares, directs or evaluates what is traced; the same for a release, but optimised where a sanitizer is added.
 # NOT_IN_THREADS: in the tests of what runs on many threads one thread alone runs it, before or after the others; the
 # thread sanitizer is left out of it.
 add_library(scintray_options INTERFACE)
