@@ -168,7 +168,8 @@ TEST_CASE("Ends arrive in the order of photons, however many others end before o
 
 TEST_CASE("Blocks traced together have the results of blocks traced one by one") {
   // Enough photons for one thread that two blocks make a piece of work.
-  SceneSpec spec = scene_spec(replaced(crystal("paint", kPaint), "photons = 3_000", "photons = 140_000"));
+  SceneSpec spec =
+      scene_spec(replaced(crystal("paint", kPaint), photons_of_each_width(), "photons = 140_000\n"));
   spec.run.threads = 1;
   scene::SceneBuilder builder(tables_of_this_build());
   const TracedPhotons alone = trace_with(spec, 1, builder);

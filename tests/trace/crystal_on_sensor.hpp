@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "physics/lane_widths.hpp"
+
 namespace scintray::test {
 
 /// A square sensor behind grease, and photons from all of the crystal.
@@ -18,8 +20,7 @@ sensor = "ideal"
 type = "photons"
 region = { part = "crystal" }
 wavelength = "420 nm"
-photons = 3_000
-)";
+)" + photons_of_each_width();
 }
 
 /// A crystal of absorbing, scattering LSO with a sensor behind grease.

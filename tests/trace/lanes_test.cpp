@@ -98,12 +98,11 @@ base = "roncali2013_unified_rough"
 gap = "air"
 reflector = "ESR"
 )";
-const char* const kEmission = R"([source]
+const std::string kEmission = R"([source]
 type = "photons"
 region = { part = "crystal[*]" }
 wavelength = "emission"
-photons = 3_000
-)";
+)" + photons_of_each_width();
 
 const char* const kTableBacked = R"([surfaces.backed]
 base = "lso_ground_30um_420nm"
@@ -154,7 +153,8 @@ surface = "two"
 
 /// Light along the normal of two faces with a table, where there is no plane of incidence.
 std::string along_the_normal(const std::string& surface, const std::string& more) {
-  return replaced(crystal(surface, more), "photons = 3_000\n", "photons = 3_000\ndirection = [1, 0, 0]\n");
+  return replaced(crystal(surface, more), photons_of_each_width(),
+                  photons_of_each_width() + "direction = [1, 0, 0]\n");
 }
 
 /// Bare crystals that share their light, and one that is turned.
@@ -317,8 +317,8 @@ vacuum = ["sipm[*]"]
 )");
   }
   const TracedPhotons alone = trace_with(scene, 1);
-  REQUIRE(alone.result.photons >= 3'000);
-  REQUIRE(alone.result.segments > 3'000);
+  REQUIRE(alone.result.photons >= kPhotonsOfEachWidth);
+  REQUIRE(alone.result.segments > kPhotonsOfEachWidth);
   for (const int width : core::lane_widths()) {
     CAPTURE(width);
     check_same(alone, trace_with(scene, width));
