@@ -138,14 +138,16 @@ TEST_CASE("Mistakes in a Zemax BRDF are found at their line") {
     CAPTURE(words);
     CHECK(reports(problems_of([&] { parse_bsdf(text, "scene.toml"); }), line, words));
   };
-  refused(replaced(sound, "BRDF", "BTDF"), 5, "transmitted light");
-  refused(replaced(sound, "Monochrome", "XYZ"), 4, "those of an eye");
-  refused(replaced(sound, "SampleRotation\t1\n0", "SampleRotation\t2\n0 90"), 6, "orientation of the sample");
-  refused(replaced(sound, "0\t15\t30\t45", "0\t30\t15\t45"), 9,
+  refused(first_replaced(sound, "BRDF", "BTDF"), 5, "transmitted light");
+  refused(first_replaced(sound, "Monochrome", "XYZ"), 4, "those of an eye");
+  refused(first_replaced(sound, "SampleRotation\t1\n0", "SampleRotation\t2\n0 90"), 6,
+          "orientation of the sample");
+  refused(first_replaced(sound, "0\t15\t30\t45", "0\t30\t15\t45"), 9,
           "the angle 15 of AngleOfIncidence follows 30");
-  refused(replaced(sound, "ScatterRadial", "Radial"), 12, "\"Radial\" is in the place of \"ScatterRadial\"");
-  refused(replaced(sound, "TIS", "TXS"), 17, "in the place of \"TIS\"");
-  refused(replaced(sound, "DataEnd", ""), 101, "the file ends here");
+  refused(first_replaced(sound, "ScatterRadial", "Radial"), 12,
+          "\"Radial\" is in the place of \"ScatterRadial\"");
+  refused(first_replaced(sound, "TIS", "TXS"), 17, "in the place of \"TIS\"");
+  refused(first_replaced(sound, "DataEnd", ""), 101, "the file ends here");
   refused(sound.substr(0, sound.rfind('\n', sound.size() / 2) + 1), 0, "the file ends here");
   BsdfText wrong;
   wrong.tis_scale = 0.6;

@@ -19,12 +19,19 @@ inline bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
+/// `text` with the first occurrence of `old` replaced, for texts that repeat their words.
+inline std::string first_replaced(std::string text, const std::string& old, const std::string& by) {
+  const auto at = text.find(old);
+  REQUIRE_MESSAGE(at != std::string::npos, "not in the text: " << old);
+  return text.replace(at, old.size(), by);
+}
+
 /// `text` with the one occurrence of `old` replaced.
 inline std::string replaced(std::string text, const std::string& old, const std::string& by) {
   const auto at = text.find(old);
-  REQUIRE_MESSAGE(at != std::string::npos, "not in the text: " << old);
-  REQUIRE_MESSAGE(text.find(old, at + 1) == std::string::npos, "twice in the text: " << old);
-  return text.replace(at, old.size(), by);
+  REQUIRE_MESSAGE((at == std::string::npos || text.find(old, at + 1) == std::string::npos),
+                  "twice in the text: " << old);
+  return first_replaced(std::move(text), old, by);
 }
 
 /// What one line of a message must hold, in any order: the names, numbers and keys that its reader acts on,

@@ -58,13 +58,6 @@ void check_made_up(const HeightMap& map, double scale = 1.0) {
     CHECK(map.heights_um[k] == doctest::Approx(scale * made_up_heights()[k]).epsilon(1e-6));
 }
 
-/// `text` with the first `from` replaced: headers repeat their keys.
-std::string first_replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, from.size(), to);
-}
-
 }  // namespace
 
 TEST_CASE("a .gwy of either version is read, in metres whatever prefix its unit carries") {
