@@ -119,7 +119,8 @@ TEST_CASE("Photons whose random numbers have other seeds are traced beside each 
 
 TEST_CASE("Ends arrive in the order of photons, however many others end before one of them") {
   // Every thousandth photon starts in a painted crystal, the others beside it, and leave the scene at once.
-  const auto point = ready(scene_spec(crystal("paint", kPaint)));
+  const auto point =
+      ready(scene_spec(replaced(crystal("paint", kPaint), photons_of_each_width(), "photons = 3_000\n")));
   const scene::Scene& scene = point->scene();
   const auto inside = [](std::uint64_t i) { return i % 1000 == 0; };
   const auto stream = [](std::uint64_t i) { return photon_stream(RunSettings{}, 0, i); };

@@ -339,7 +339,7 @@ TEST_CASE("Photons stay in lanes at facets, tables and reflectors, and each is r
     const auto kind = width < 4 ? transport::LaneKind::none : transport::LaneKind::surfaces;
     CHECK(transport::lane_kinds(point->scene(), width)[point->start(0, 0).region] == kind);
     const TracedPhotons traced = trace_with(scene, width);
-    REQUIRE(traced.list.size() > 100);
+    REQUIRE(traced.list.size() > kPhotonsOfEachWidth / 30);
     for (std::size_t i = 0; i < traced.list.size(); i += 31) {
       const DetectedPhoton& seen = traced.list[i];
       const source::Photon end =
