@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -13,16 +12,6 @@
 #include "scintray/simulation/simulation_point.hpp"
 
 namespace scintray::test {
-
-/// Of a scene that is traced by every width: under a sanitizer a third takes the same ways through the code.
-#ifdef SCINTRAY_SANITIZED
-inline constexpr int kPhotonsOfEachWidth = 1000;
-#else
-inline constexpr int kPhotonsOfEachWidth = 3000;
-#endif
-inline std::string photons_of_each_width() {
-  return "photons = " + std::to_string(kPhotonsOfEachWidth) + "\n";
-}
 
 /// A result, and the photons detected.
 struct TracedPhotons {

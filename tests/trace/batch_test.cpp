@@ -119,8 +119,7 @@ TEST_CASE("Photons whose random numbers have other seeds are traced beside each 
 
 TEST_CASE("Ends arrive in the order of photons, however many others end before one of them") {
   // Every thousandth photon starts in a painted crystal, the others beside it, and leave the scene at once.
-  const auto point =
-      ready(scene_spec(replaced(crystal("paint", kPaint), photons_of_each_width(), "photons = 3_000\n")));
+  const auto point = ready(scene_spec(crystal("paint", kPaint)));
   const scene::Scene& scene = point->scene();
   const auto inside = [](std::uint64_t i) { return i % 1000 == 0; };
   const auto stream = [](std::uint64_t i) { return photon_stream(RunSettings{}, 0, i); };
@@ -169,8 +168,7 @@ TEST_CASE("Ends arrive in the order of photons, however many others end before o
 
 TEST_CASE("Blocks traced together have the results of blocks traced one by one") {
   // Enough photons for one thread that two blocks make a piece of work.
-  SceneSpec spec =
-      scene_spec(replaced(crystal("paint", kPaint), photons_of_each_width(), "photons = 140_000\n"));
+  SceneSpec spec = scene_spec(replaced(crystal("paint", kPaint), "photons = 3_000", "photons = 140_000"));
   spec.run.threads = 1;
   scene::SceneBuilder builder(tables_of_this_build());
   const TracedPhotons alone = trace_with(spec, 1, builder);

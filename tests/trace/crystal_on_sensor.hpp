@@ -3,8 +3,6 @@
 
 #include <string>
 
-#include "physics/lane_widths.hpp"
-
 namespace scintray::test {
 
 /// A square sensor behind grease, and photons from all of the crystal.
@@ -20,7 +18,8 @@ sensor = "ideal"
 type = "photons"
 region = { part = "crystal" }
 wavelength = "420 nm"
-)" + photons_of_each_width();
+photons = 3_000
+)";
 }
 
 /// A crystal of absorbing, scattering LSO with a sensor behind grease.

@@ -45,7 +45,8 @@ sensor = "ideal"
 type = "photons"
 region = { part = "crystal[1,1]" }
 wavelength = "420 nm"
-)" + photons_of_each_width();
+photons = 3_000
+)";
 }
 /// Sheets that end 1 mm above the sensor, and around the crystals, with air in between.
 const char* const kSepta = R"(
@@ -87,7 +88,9 @@ sensor = "ideal"
 type = "photons"
 region = { part = "crystal[0,0]" }
 wavelength = ")" +
-         wavelength + "\"\n" + photons_of_each_width();
+         wavelength + R"("
+photons = 3_000
+)";
 }
 
 /// Bare crystals on sensors of their own, and an air pocket that reflects light in the glass between totally.
@@ -120,7 +123,9 @@ sensor = "ideal"
 type = "photons"
 region = { part = "crystal[*]" }
 wavelength = ")" +
-         wavelength + "\"\n" + photons_of_each_width();
+         wavelength + R"("
+photons = 3_000
+)";
 }
 
 /// Kernels of the regions of some parts, by the part's name up to its first number.
@@ -157,8 +162,8 @@ TEST_CASE("Photons that stay in lanes from region to region have the same bits i
   SUBCASE("glass, wavelengths of the emission") { scene = in_glass("emission"); }
   const auto point = ready(scene_spec(scene));
   const TracedPhotons alone = trace_with(scene, 1);
-  REQUIRE(alone.result.photons >= kPhotonsOfEachWidth);
-  REQUIRE(alone.result.segments > 10 * kPhotonsOfEachWidth / 3);
+  REQUIRE(alone.result.photons >= 3'000);
+  REQUIRE(alone.result.segments > 10'000);
   for (const int width : lane_widths()) {
     CAPTURE(width);
     const LanePlan lanes(point->scene(), width);

@@ -314,8 +314,8 @@ void Definitions::for_each_child(Node parent, const std::function<void(Node)>& a
     const double from = number(child, "from", 0.0), to = number(child, "to"),
                  step = number(child, "step", 1.0);
     if (!(step > 0.0)) file_.reject(child, "a loop whose step is not above 0", "give step=\"1\"");
-    // Refused before the first step, of which each may take a moment. A last one within rounding of `to` is
-    // one.
+    // Refused before the first step, as each may take a moment. A step that ends within rounding of `to`
+    // counts.
     const double steps = std::max(0.0, std::floor((to - from) / step + 1e-9) + 1.0);
     loops_->steps += steps;
     if (!(loops_->steps <= kMostSteps))
